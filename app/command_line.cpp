@@ -133,7 +133,8 @@ void add_study_options(OptionList& command, StudyOptions& options) {
                    "write the plots for gnuplot too, and as SVG and PNG where it is installed");
   command.add_option("--brand", options.brand, "logo above the report, an SVG file").check(svg_fault);
   command.add_option("--author", options.author, "name above the report");
-  command.add_flag("--all", options.all, "print all figures with all digits, works, notes: the long form");
+  command.add_flag("--all", options.all,
+                   "print everything: all figures with all digits, every row of every table, works, notes");
   command.add_flag("--json", options.json, "print the summary as JSON");
   command.add_flag("--quiet", options.quiet, "print only the conclusion in one line, and no progress");
   command.add_flag("--verbose", options.verbose, "say on stderr what is read, compiled, chosen and run");

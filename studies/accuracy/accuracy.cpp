@@ -30,12 +30,6 @@ AccuracyStudy measure_accuracy(const Scene& scene, const AccuracyOptions& option
   return std::move(study);
 }
 
-std::string model_called(const std::string& level) {
-  const std::string lean = "elastic: ";
-  if (level.starts_with(lean)) return fmt::format("model elastic in {} alone", level.substr(lean.size()));
-  return level.starts_with("with ") ? "model " + level : level + " model";
-}
-
 std::string AccuracyStudy::name_of(const MeasuredSetting& s) const {
   const std::string& level = levels[s.level].name;
   return s.tolerance > 0 ? fmt::format("{}, {} at {:.0e}", level, s.method, s.tolerance) : level;

@@ -38,6 +38,7 @@ struct FollowedFigure {
 struct ModelLevel {
   // "energy method", "rigid", "with joint friction", "elastic: main_coupling", "elastic", "multibody"
   std::string name = {};
+  std::string called = {};   // in sentences: "rigid model", "model with gear losses", "model elastic in shaft alone"
   std::string effects = {};  // of the model
   std::size_t coordinates = 0;
   std::string first = {}, second = {};  // methods of the reference
@@ -51,12 +52,9 @@ struct ModelLevel {
 };
 inline constexpr double close_enough = 1e-3;
 
-// "rigid" → "rigid model", "with gear losses" → "model with gear losses", "elastic: shaft" → "model elastic in shaft alone".
-std::string model_called(const std::string& level);
-
 // One level in the series of models: the effects of the levels before, and one more.
 struct ModelRung {
-  std::string name;               // "rigid", "with joint friction", "elastic", "all elastic", as the level's
+  std::string name, called;       // "elastic", "elastic model", as the level's
   Effects effects;                // all that are on
   bool Effects::*adds = nullptr;  // null: the bare machine, or elasticity
   bool of_scene = true;           // on in the scene; its own effects come first: its model is a level, too

@@ -216,7 +216,7 @@ Text how_measured(const AccuracyStudy& study) {
           "{:.0e}; total errors against the reference of the {}. A model's time is that of its cheapest setting whose "
           "numbers are within {:g} % of its own {}. Models between the rigid one, those elastic, and the scene's own "
           "are run by the methods of their references alone, unless methods are named. The whole study took {:.3g} s.",
-          full.tolerance, model_called(full.name), 100 * close_enough, study.figures[study.key].name, study.seconds)};
+          full.tolerance, full.called, 100 * close_enough, study.figures[study.key].name, study.seconds)};
 }
 
 // Plots and tables of the measured settings on the page.

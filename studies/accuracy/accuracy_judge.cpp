@@ -138,13 +138,13 @@ class Judge {
     if (!has_key) return fmt::format("The level \"{}\" yields the motion of the link alone, not {}", m.name, key());
     const double off = m.model_error[study_.key];
     if (off <= std::max(m.floor[study_.key], full().floor[study_.key]))
-      return fmt::format("The {} gives the same {} as the {}", model_called(m.name), key(), model_called(full().name));
+      return fmt::format("The {} gives the same {} as the {}", m.called, key(), full().called);
     const MeasuredSetting* enough = nullptr;
     for (const MeasuredSetting& s : study_.settings)
       if (s.level == level && s.numerical_error[study_.key] <= 0.1 * off && (!enough || s.seconds < enough->seconds))
         enough = &s;
-    std::string text = fmt::format("The {} is {} off the {} in {} whatever its tolerance", model_called(m.name),
-                                   percent(off), model_called(full().name), key());
+    std::string text = fmt::format("The {} is {} off the {} in {} whatever its tolerance", m.called, percent(off),
+                                   full().called, key());
     if (enough)
       text += fmt::format("; {} at {:.0e} ({}) is accurate enough for it", enough->method, enough->tolerance,
                           duration_text(enough->seconds));
@@ -154,7 +154,7 @@ class Judge {
   std::string floor() const {
     return fmt::format(
         "{} and {} agree on {} of the {} to {:.1e}, on its motion to {:.1e}: no smaller error is claimed", full().first,
-        full().second, key(), model_called(full().name), full().floor[study_.key], full().agreement);
+        full().second, key(), full().called, full().floor[study_.key], full().agreement);
   }
 
   // Against the cheapest reduced setting of at least the same accuracy.

@@ -20,7 +20,7 @@ namespace {
 class Rungs {
  public:
   explicit Rungs(const Scene& scene) : scene_(scene), units_(effect_units(scene)) {
-    rungs_.push_back({.name = "rigid", .effects = bare_machine(scene.effects)});
+    rungs_.push_back({.name = "rigid", .called = "rigid model", .effects = bare_machine(scene.effects)});
   }
 
   std::vector<ModelRung> all() {
@@ -42,8 +42,11 @@ class Rungs {
       Effects effects = rungs_.back().effects;
       if (!given || !wanted(f) || scene_.effects.*(f.flag) != of_scene || effects.*(f.flag)) continue;
       effects.*(f.flag) = true;
-      rungs_.push_back(
-          {.name = fmt::format("with {}", f.words), .effects = effects, .adds = f.flag, .of_scene = of_scene});
+      rungs_.push_back({.name = fmt::format("with {}", f.words),
+                        .called = fmt::format("model with {}", f.words),
+                        .effects = effects,
+                        .adds = f.flag,
+                        .of_scene = of_scene});
     }
   }
 
@@ -56,8 +59,8 @@ class Rungs {
     Effects effects = rungs_.back().effects;
     effects.all_elastic = !of_scene || scene_.effects.all_elastic;
     effects.elastic = of_scene ? scene_.effects.elastic : std::vector<std::string>{};
-    const char* name = of_scene || on == 0 ? "elastic" : "all elastic";
-    rungs_.push_back({.name = name, .effects = effects, .of_scene = of_scene});
+    const std::string name = of_scene || on == 0 ? "elastic" : "all elastic";
+    rungs_.push_back({.name = name, .called = name + " model", .effects = effects, .of_scene = of_scene});
   }
 
   const Scene& scene_;
@@ -114,7 +117,9 @@ std::optional<ModelRung> lean_rung(AccuracyWork& work, const Effects& full, cons
     }
     work.log(fmt::format("elastic in {} alone: peaks off by up to {:.2g}", component, difference));
     if (difference < nearest)
-      nearest = difference, best = ModelRung{.name = "elastic: " + one.elastic.front(), .effects = one};
+      nearest = difference, best = ModelRung{.name = "elastic: " + one.elastic.front(),
+                                             .called = fmt::format("model elastic in {} alone", one.elastic.front()),
+                                             .effects = one};
   }
   if (!best) work.omit("elastic lean", "no single elastic element makes a model that runs");
   return best;
@@ -179,7 +184,11 @@ bool make_reference(AccuracyWork& work, LevelAtWork& level) {
 
 // The level of a model, on top of those before; false: it makes no machine, or no reliable one.
 bool add_level(AccuracyWork& work, const ModelRung& rung, bool between) {
-  LevelAtWork level{.reported = {.name = rung.name}, .model = {}, .tables = {}, .reference = {}, .between = between};
+  LevelAtWork level{.reported = {.name = rung.name, .called = rung.called},
+                    .model = {},
+                    .tables = {},
+                    .reference = {},
+                    .between = between};
   try {
     level.model = compile(work.scene, rung.effects);
   } catch (const SceneError& refusal) {
@@ -217,17 +226,17 @@ void make_levels(AccuracyWork& work) {
     ModelRung rung = *r;
     if (!rung.of_scene)
       for (const ModelRung& other : in_vain) take_away(other, work.scene, rung.effects);
-    const bool elastic = r != rungs.begin() && !rung.adds;
     if (!rung.of_scene && work.spent() > work.options.time / 3) {
       work.omit(rung.name,
                 fmt::format("the levels before took {:.2g} s of the study's {:g} s", work.spent(), work.options.time));
       in_vain.push_back(rung);
       continue;
     }
-    if (elastic && std::exchange(lean_is_due, false))
+    const bool elastic = r != rungs.begin() && !rung.adds && std::exchange(lean_is_due, false);  // the first such one
+    if (elastic)
       if (const auto lean = lean_rung(work, rung.effects, *compile(work.scene, rung.effects)))
         add_level(work, *lean, false);
-    const bool between = r != rungs.begin() && r != own && !(elastic && rung.name == "elastic");
+    const bool between = r != rungs.begin() && r != own && !elastic;
     if (add_level(work, rung, between)) {
       if (rung.of_scene) work.study.own = work.levels.size() - 1;
     } else if (!rung.of_scene) {

@@ -75,7 +75,7 @@ Role level_role(std::size_t level, std::size_t fullest) {
 Plot work_precision(const AccuracyStudy& study, std::size_t level) {
   const auto error = [](const MeasuredSetting& s) { return s.trajectory_error; };
   const ModelLevel& m = study.levels[level];
-  Plot plot{.title = fmt::format("What the motion's accuracy costs, {}", model_called(m.name)),
+  Plot plot{.title = fmt::format("What the motion's accuracy costs, {}", m.called),
             .x = {"largest error of the motion", "", true},
             .y = {"processor time", "ms", true},
             .series = method_series(study, level, error)};
@@ -91,7 +91,7 @@ Plot work_precision(const AccuracyStudy& study, std::size_t level) {
 Plot figure_cost(const AccuracyStudy& study, std::size_t figure) {
   const auto error = [&](const MeasuredSetting& s) { return s.numerical_error[figure]; };
   const ModelLevel& m = study.levels[study.own];
-  Plot plot{.title = fmt::format("What {} costs, {}", study.figures[figure].name, model_called(m.name)),
+  Plot plot{.title = fmt::format("What {} costs, {}", study.figures[figure].name, m.called),
             .x = {"numerical error", "relative", true},
             .y = {"processor time", "ms", true},
             .series = method_series(study, study.own, error)};
@@ -136,7 +136,7 @@ Plot error_plane(const AccuracyStudy& study) {
   plot.note = fmt::format(
       "Above the diagonal the model is coarser than the numbers: a tighter tolerance is wasted there. "
       "The {}, which the others are judged by, lies at {:.1e}, to which its references agree.",
-      model_called(study.levels[study.fullest].name), floor);
+      study.levels[study.fullest].called, floor);
   return plot;
 }
 
@@ -151,7 +151,7 @@ Plot total_cost(const AccuracyStudy& study) {
       study, error, [](const MeasuredSetting& s) { return 1e3 * s.seconds; }, plot);
   plot.series.push_back(front_series(
       study, [](const MeasuredSetting& s) { return s.on_front; }, error));
-  plot.note = fmt::format("Against the converged {}.", model_called(study.levels[study.fullest].name));
+  plot.note = fmt::format("Against the converged {}.", study.levels[study.fullest].called);
   return plot;
 }
 

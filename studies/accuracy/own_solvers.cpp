@@ -14,7 +14,7 @@ namespace {
 std::size_t motion_level(AccuracyWork& work, const std::string& name) {
   const LevelAtWork& rigid = work.levels.front();
   ModelLevel reported = rigid.reported;
-  reported.name = name;
+  reported.name = name, reported.called = name + " model";
   work.study.levels.push_back(reported);
   return work.study.levels.size() - 1;
 }

@@ -304,7 +304,8 @@ class Adviser {
       return;
     }
     a_.conclusion = fmt::format(
-        "Within {:.3g} %: {}. It deviates by {} at most ({}) and takes {:.0f} % of the time of the full model; {} sets "
+        "Within {:.3g} %: {}. This model deviates by {} at most ({}) and takes {:.0f} % of the time of the full model; "
+        "{} sets "
         "were run{}.",
         100 * options_.within,
         chosen.words == "none"

@@ -31,6 +31,9 @@ constexpr Ranked ranks[] = {
     {"current_use", 3},
     {"cycle_motor_power", 3},
     {"motor_mean_power", 3},
+    {"motor_peak_current", 9},  // behind what heats it
+    {"motor_peak_power", 9},
+    {"motor_peak_torque", 9},
     {"motor_rms_torque", 3},
     {"thermal_use", 3},
     {"motor_rms_current", 4},
@@ -67,7 +70,6 @@ constexpr Ranked ranks[] = {
 
 int rank_of(const Figure& f, const std::string& link, const std::set<std::string>& judged) {
   if (judged.contains(f.name)) return 1;
-  if (f.words().starts_with("motor_peak_")) return 9;  // behind what heats it
   if (f.what == quantities::peak_other) return 8;
   if (f.what == quantities::cycle_fluctuation && !(f.value < stands_within_the_cycle)) return never;
   if (f.what == quantities::final_angle && std::abs(f.value) > 2 * pi) return never;  // counts turns

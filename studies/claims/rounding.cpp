@@ -92,7 +92,7 @@ FigureText figure_text(const Estimate& estimate, int most_digits) {
   if (!std::isfinite(estimate.value)) return {"—", ""};
   const double value = estimate.value + 0.0;  // no −0
   const std::optional<double>& error = estimate.error;
-  if (!error || !std::isfinite(*error)) return {rounded_number(value, digits_without_error), ""};
+  if (!error || !std::isfinite(*error)) return {rounded_number(value, std::min(most_digits, digits_without_error)), ""};
   if (*error == 0)
     return {rounded_number(value, most_digits < digits_in_tables ? most_digits : digits_if_exact), "± 0"};
   if (3 * std::abs(value) <= *error && value != 0) return figure_text({0, *error + std::abs(value)}, most_digits);

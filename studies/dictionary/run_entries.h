@@ -94,10 +94,9 @@ inline constexpr Definition of_channels_and_runs[] = {
     {"stopping_angle", "stopping angle", "rad", "LINK", "8", of_runs,
      "what the reduction link still turns in its stopping time"},
     {"time_above_*", "time above a level", "s", "LEVEL.OWNER", "", of_runs,
-     "time during which the channel lies above the level of a [[figure]] of the scene, which the name says in SI "
-     "units: "
-     "time_above_torque.40000.main_coupling. step_time_above_torque.2.40000.main_coupling is that in step 2 of the "
-     "operating sequence, cycle_time_above_torque.40000.main_coupling that in one steady cycle",
+     "time during which the channel lies above the level of a [[figure]] of the scene, which the name has as it is "
+     "given there: time_above_torque.40kN*m.main_coupling. step_time_above_torque.2.40kN*m.main_coupling is that in "
+     "step 2 of the operating sequence, cycle_time_above_torque.40kN*m.main_coupling that in one steady cycle",
      "", "a share of the time; a number of crossings"},
     {"impacts", "impacts", "", "MECHANISM", "13", of_runs,
      "how often a joint with clearance is hit after flight during the run", "",

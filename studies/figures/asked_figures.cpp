@@ -27,13 +27,14 @@ Functional functional_named(const std::string& name) {
   return std::ranges::find(names, name, &std::pair<std::string_view, Functional>::first)->second;
 }
 
-// "step_time_above_torque.2.40000.main_coupling"
-Name name_of(const AskedFigure& asked) {
+// "step_time_above_torque.2.40kN*m.main_coupling": the level as the scene gives it.
+Name name_of(const AskedFigure& asked, std::string level) {
   const Name& channel = asked.channel.name;
   const QuantityKind what{channel.what.channel, asked.functional, asked.window};
   std::string text = prefix_of(what) + channel.text.substr(0, channel.text.size() - channel.of.size() - 1);
   if (asked.step > 0) text += fmt::format(".{}", asked.step);
-  if (asked.functional == Functional::above) text += fmt::format(".{:g}", asked.level);
+  std::erase(level, ' ');
+  if (asked.functional == Functional::above) text += "." + level;
   return {what, channel.of, text + "." + channel.of};
 }
 
@@ -81,7 +82,7 @@ std::vector<AskedFigure> read(const Model& model, std::vector<std::string>& of_o
     DocumentValue level;
     level.type = DocumentValue::Type::text, level.text = request.level, level.at = request.at;
     if (time) read_quantity(level, channel->unit, any_number, "[[figure]]: level", messages, asked.level);
-    asked.figure = Figure::of_name(name_of(asked), 0, time ? "s" : channel->unit);
+    asked.figure = Figure::of_name(name_of(asked, request.level), 0, time ? "s" : channel->unit);
     if (std::ranges::find(list, asked.figure.name, [](const AskedFigure& a) { return a.figure.name; }) != list.end())
       messages.add(request.at, fmt::format("[[figure]]: \"{}\" is requested twice", asked.figure.name));
     list.push_back(std::move(asked));

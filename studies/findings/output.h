@@ -14,7 +14,7 @@
 namespace kurbel {
 
 // The renderings of findings, each in its own file: render_terminal.cpp, render_json.cpp, render_page.cpp.
-// `all_digits`: nine digits of figures instead of six.
+// `all_digits`: nine digits of figures instead of six, and every row of every table.
 std::string terminal_text(const Findings& findings, bool all_digits = false);
 // Short form: at most Brief::most_lines lines of Brief::width columns; empty if there is none.
 std::string brief_text(const Findings& findings);

@@ -24,6 +24,24 @@ std::string right(const std::string& text, std::size_t columns) {
   return std::string(columns > width(text) ? columns - width(text) : 0, ' ') + text;
 }
 
+constexpr std::size_t every_row = SIZE_MAX / 2;
+
+// Rows of each table if not all are requested: the longest tables are cut until all together have at most 48 rows, but none
+// to fewer than eight.
+std::size_t rows_each(const Findings& f) {
+  constexpr std::size_t most = 48, least = 8;
+  const auto rows = [&f](std::size_t each) {
+    std::size_t sum = 0;
+    for (const Statement& s : f.statements)
+      if (const Rows* table = std::get_if<Rows>(&s.what); table && table->terminal)
+        sum += std::min(table->for_people ? table->for_people->size() : table->count, each);
+    return sum;
+  };
+  std::size_t each = most;
+  while (each > least && rows(each) > most) --each;
+  return each;
+}
+
 std::string opening_of(const Findings& f) {
   std::string text;
   if (f.opening != Findings::Opening::conclusion) text += f.title + "\n";
@@ -36,14 +54,14 @@ void say(std::string& text, const std::string& heading, bool apart) {
   if (!heading.empty()) text += heading + "\n";
 }
 
-void say(std::string& text, const Sentences& words, bool) {
+void say(std::string& text, const Sentences& words, std::size_t) {
   if (!words.terminal || words.lines.empty()) return;
   say(text, words.heading, words.apart);
   for (const std::string& line : words.lines) text += words.indent + line + "\n";
 }
 
-void say(std::string&, const Field&, bool) {}
-void say(std::string&, const Drawn&, bool) {}
+void say(std::string&, const Field&, std::size_t) {}
+void say(std::string&, const Drawn&, std::size_t) {}
 
 // At most `columns` columns; the rest, of what goes on in any case, is in the report.
 std::string shortened(const std::string& text, std::size_t columns, bool goes_on = false) {
@@ -93,11 +111,15 @@ std::vector<std::string> aligned_lines(const std::vector<std::vector<std::string
   return lines;
 }
 
-// With its headings.
-std::vector<std::string> lines_of(const Rows& rows, bool all_digits = false) {
-  std::vector<std::vector<std::string>> lines = rows.texts(all_digits);
-  lines.insert(lines.begin(), rows.headings());
-  return aligned_lines(lines, rows.text_columns_on_terminal);
+// With its headings. Of a long table the first rows, and how many there are besides.
+std::vector<std::string> lines_of(const Rows& rows, std::size_t most) {
+  std::vector<std::vector<std::string>> cells = rows.texts(most == every_row);
+  const std::size_t more = cells.size() > most + 1 ? cells.size() - most : 0;
+  cells.resize(cells.size() - more);
+  cells.insert(cells.begin(), rows.headings());
+  std::vector<std::string> lines = aligned_lines(cells, rows.text_columns_on_terminal);
+  if (more > 0) lines.push_back(fmt::format("  {} more rows (report, or --all)", more));
+  return lines;
 }
 
 std::string in_lines(const std::vector<std::string>& lines) {
@@ -144,10 +166,10 @@ std::vector<std::string> headline_of(const Findings& findings) {
   return lines;
 }
 
-void say(std::string& text, const Rows& rows, bool all_digits) {
+void say(std::string& text, const Rows& rows, std::size_t most) {
   if (!rows.terminal || !rows.shown_to_people()) return;
   say(text, rows.heading, rows.apart);
-  text += in_lines(lines_of(rows, all_digits));
+  text += in_lines(lines_of(rows, most));
 }
 
 }  // namespace
@@ -158,8 +180,8 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows, std::size
 
 std::string terminal_text(const Findings& findings, bool all_digits) {
   std::string text = opening_of(findings);
-  for (const Statement& s : findings.statements)
-    std::visit([&](const auto& what) { say(text, what, all_digits); }, s.what);
+  const std::size_t most = all_digits ? every_row : rows_each(findings);
+  for (const Statement& s : findings.statements) std::visit([&](const auto& what) { say(text, what, most); }, s.what);
   return text;
 }
 
@@ -177,7 +199,8 @@ std::string brief_text(const Findings& f) {
   std::vector<std::string> lines = {shortened(b.about, Brief::width)};
   for (std::string& line : headline_of(f)) lines.push_back(std::move(line));
   if (b.figures.count > 0)
-    for (const std::string& line : lines_of(b.figures)) lines.push_back(shortened(line, Brief::width));
+    for (const std::string& line : lines_of(b.figures, Brief::most_figures))
+      lines.push_back(shortened(line, Brief::width));
   for (const std::string& line : b.words) lines.push_back(shortened("  " + readable(line), Brief::width));
   const std::size_t own = lines.size() + (b.more.empty() ? 0 : 1),
                     room = Brief::most_lines - std::min(own, Brief::most_lines);

@@ -11,7 +11,7 @@
 namespace kurbel {
 
 Role further_role(std::size_t i) {
-  constexpr Role roles[] = {Role::orange, Role::green, Role::vermillion, Role::purple, Role::sky};
+  constexpr Role roles[] = {Role::orange, Role::green, Role::vermillion, Role::purple, Role::sky, Role::elastic};
   return roles[i % std::size(roles)];
 }
 

@@ -129,8 +129,7 @@ class Study {
     out_.friction = effects_.joint_friction && asked.mechanism().joints;
     if (const std::string& how = data_.shared_reactions(); !how.empty() && !out_.friction)
       out_.notes.push_back(fmt::format("{}: {}", asked.name, how));
-    for (const std::string& line : mechanism_words(machine_.model()))
-      if (line.starts_with(asked.name + ": ")) out_.about.push_back(line);
+    for (const std::string& line : mechanism_words(asked.mechanism())) out_.about.push_back(asked.name + ": " + line);
     statics_.emplace(data_, out_.joints, out_.friction, !effects_.gravity);
     loads_.add_edges(statics_->turnings());
     solve_first();

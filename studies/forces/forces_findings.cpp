@@ -228,7 +228,7 @@ void say_links(Findings& to, Chapter in, const ForceCycle& c) {
     };
   };
   to.say(in, table_of("", "Motion and inertia forces of the links, largest over the cycle", c.links)
-                 .headed("links: motion and inertia forces, largest over the cycle")
+                 .not_on_terminal()
                  .text_in(0)
                  .always()
                  .only_for_people("link", &LinkOfCycle::name)
@@ -238,7 +238,7 @@ void say_links(Findings& to, Chapter in, const ForceCycle& c) {
                  .only_for_people("at", [](L l) { return at_angle(l.inertia_force); })
                  .only_for_people("−I ε [N·m]", reported(&LinkOfCycle::inertia_couple)));
   to.say(in, table_of("", "Shares of the links in the reduced inertia and the kinetic energy", c.links)
-                 .headed("links: shares in I_r (mean over the angle) and kinetic energy (mean over the time)")
+                 .not_on_terminal()
                  .text_in(0)
                  .always()
                  .only_for_people("link", &LinkOfCycle::name)

@@ -173,8 +173,8 @@ void add_wave_errors(ModesStudy& found) {
   const int really = continuous_modes_below(found.drive, above) - found.undamped.rigid;
   if (really > static_cast<int>(found.modes.size()))
     found.notes.push_back(fmt::format(
-        "up to {:.5g} Hz continuous shafts have {} modes by their exact dynamic stiffness, and {} are listed: the "
-        "others vibrate within shafts whose elements follow no such waves; give those shafts segments",
+        "up to {:.5g} Hz the exact dynamic stiffness of continuous shafts gives {} modes; {} are listed. The others "
+        "are waves within shafts that are modelled by too few elements: give those shafts more segments",
         above / (2 * pi), really, found.modes.size()));
 }
 

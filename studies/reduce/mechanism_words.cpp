@@ -186,21 +186,34 @@ std::string structure_words(const Mechanism& mechanism) {
   return linkage ? linkage->structure_in_words() : "";
 }
 
-std::vector<std::string> mechanism_words(const Model& model) {
+std::vector<std::string> mechanism_words(const Mechanism& m) {
   std::vector<std::string> words;
+  if (const auto linkage = linkage_in(m.data)) {
+    words.push_back(linkage->structure_in_words());
+    for (const std::string& angle : linkage->transmission_in_words()) words.push_back(angle);
+  }
+  words.push_back(travel(m));
+  if (const std::string line = dwell(m); !line.empty()) words.push_back(line);
+  return words;
+}
+
+std::vector<std::string> mechanism_notes(const Model& model) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> groups;  // names, words
   for (const Network::ShaftElement& e : model.network.elements) {
     const MechanismElement* const element = mechanism_of(e);
     if (!element) continue;
     const Mechanism& m = element->mechanism();
-    const auto add = [&](const std::string& line) { words.push_back(m.name + ": " + line); };
-    if (const auto linkage = linkage_in(m.data)) {
-      add(linkage->structure_in_words());
-      for (const std::string& angle : linkage->transmission_in_words()) add(angle);
-    }
-    add(travel(m));
-    if (const std::string line = dwell(m); !line.empty()) add(line);
+    const std::vector<std::string> words = mechanism_words(m);
+    const auto same = std::ranges::find(groups, words, &decltype(groups)::value_type::second);
+    if (same == groups.end())
+      groups.emplace_back(m.name, words);
+    else
+      same->first += ", " + m.name;
   }
-  return words;
+  std::vector<std::string> notes;
+  for (const auto& [names, words] : groups)
+    for (const std::string& line : words) notes.push_back(fmt::format("{}: {}", names, line));
+  return notes;
 }
 
 }  // namespace kurbel

@@ -16,7 +16,10 @@ std::vector<PointPath> point_paths(const Model& model);
 // Class and groups; empty where its joints are unknown or its links pass change points.
 std::string structure_words(const Mechanism& mechanism);
 
-// Of every mechanism: class and groups, least transmission angles, travel; each line with the mechanism's name.
-std::vector<std::string> mechanism_words(const Model& model);
+// Class and groups, least transmission angles, travel.
+std::vector<std::string> mechanism_words(const Mechanism& mechanism);
+
+// The same of every mechanism, behind their names: of equal mechanisms once.
+std::vector<std::string> mechanism_notes(const Model& model);
 
 }  // namespace kurbel

@@ -311,7 +311,7 @@ class Reducer : MachineOnBasis {
   }
 
   void add_notes() {
-    for (const auto notes_of : {substitutes, mechanism_words})
+    for (const auto notes_of : {substitutes, mechanism_notes})
       for (const std::string& note : notes_of(model())) r_.notes.push_back(note);
     if (machine_ && machine_->uses_time())
       r_.notes.push_back("some torque depends on time; the torques are those at t = 0");

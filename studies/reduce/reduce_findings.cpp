@@ -263,10 +263,11 @@ std::string errors_text(const MachineReduction& r) {
   if (!r.inertia_error || !r.drive_error || !r.load_error)
     return fmt::format("no errors are known{}: {}", r.inertia_error ? " of M_d and M_c" : "",
                        r.outside_data.empty() ? "nothing repeats" : "torques are taken from outside of their tables");
+  const auto error = [](double e) { return figure_text({0, e}).error; };  // rounded up
   return fmt::format(
-      "errors, on {}: I_r ± {:.1g} kg·m², M_d ± {:.1g} N·m, M_c ± {:.1g} N·m (from a repetition with tolerances and "
-      "samples 100 times coarser)",
-      r.link, *r.inertia_error, *r.drive_error, *r.load_error);
+      "errors, on {}: I_r {} kg·m², M_d {} N·m, M_c {} N·m (from a repetition with tolerances and samples 100 times "
+      "coarser)",
+      r.link, error(*r.inertia_error), error(*r.drive_error), error(*r.load_error));
 }
 
 void report_all(Findings& f, const MachineReduction& r) {

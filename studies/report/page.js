@@ -212,7 +212,8 @@
   function rangeOf(plot) {
     const given = plot.x.least !== undefined && plot.x.greatest !== undefined ? {range: [plot.x.least, plot.x.greatest]} : {};
     if (plot.x.names) {
-      const room = widthOf(plot) / plot.x.names.length / 7, text = plot.x.names.map(name => inLines(shortName(name), room));
+      const beside = (plot.y.names || []).flatMap(name => shortName(name).split('\n')).map(line => 6.5 * line.length - 50);
+      const room = (widthOf(plot) - Math.max(0, ...beside)) / plot.x.names.length / 7, text = plot.x.names.map(name => inLines(shortName(name), room));
       return {...given, ...(text.every(Boolean) ? {...placesOf(plot.x.names, text), tickangle: 0} : {...placesOf(plot.x.names), tickangle: -35})};
     }
     if (given.range) return given;

@@ -183,8 +183,10 @@ Rows stress_table(const ShaftStresses& s) {
 }
 
 Rows misfire_table(const ShaftStresses& s) {
-  return peak_table(s, "misfires", "Vibratory stress of shafts with one cylinder misfiring",
-                    "the same with one cylinder misfiring", misfire_peaks(s));
+  Rows table =
+      peak_table(s, "misfires", "Vibratory stress of shafts with one cylinder misfiring", "", misfire_peaks(s));
+  table.terminal = false;
+  return table;
 }
 
 std::vector<Plot> stress_plots(const ShaftStresses& s) {

@@ -18,9 +18,12 @@ constexpr std::size_t most_influences = 12, most_worst = 10;
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
+// All three end at the same digit, by the width of the interval.
 std::string interval_words(const Index& i) {
-  if (i.low == i.high) return fmt::format("{:.3f}", i.value);
-  return fmt::format("{:.3f} ({:.3f} … {:.3f})", i.value, i.low, i.high);
+  if (i.low == i.high) return figure_text({i.value}, 3).value;
+  const std::string value = figure_text({i.value, 0.5 * (i.high - i.low)}, 3).value;
+  const std::size_t point = value.find('.'), places = point == std::string::npos ? 0 : value.size() - point - 1;
+  return fmt::format("{} ({:.{}f} … {:.{}f})", value, i.low, places, i.high, places);
 }
 
 // A count with thousands separators, "10,007": a headline would round a plain number.
@@ -94,19 +97,20 @@ std::vector<Spread> spreads_of(const SweepStudyResult& s) {
 Rows figure_table(const SweepStudyResult& s) {
   auto table = table_of("figures", "Figures over all variants", spreads_of(s));
   table.column("figure", "figure", [](const Spread& f) { return f.figure.name; });
-  // Speeds in the scene's unit for people.
-  const auto add = [&](const char* key, const char* heading, const auto& get, int digits) {
-    table.only_for_programs(key, get).only_for_people(heading, [&s, &get, digits](const Spread& f) {
-      const std::optional<double> value = std::invoke(get, f);
-      return value ? read_as(s.reported(*value, f.figure.unit), {.digits = digits}) : std::string(ReadAs{}.otherwise);
-    });
+  // Speeds in the scene's unit for people; each ends where the largest error of a row begins.
+  const auto cells = [&s](const Spread& f, double value, int digits) {
+    return figure_cells({value, f.error}, f.figure.unit, s.speed_unit, digits);
   };
-  add("least", "least", &Spread::least, digits_in_tables);
-  add("mean", "mean", &Spread::mean, digits_in_tables);
-  add("greatest", "greatest", &Spread::greatest, digits_in_tables);
-  add("deviation", "deviation", &Spread::deviation, 3);
-  add("largest_error", "numerical error", &Spread::error, 1);
-  return table
+  const auto add = [&](const char* key, double Spread::*of, int digits) {
+    table.only_for_programs(key, of).only_for_people(
+        key, [&, of, digits](const Spread& f) { return cells(f, f.*of, digits).value; });
+  };
+  add("least", &Spread::least, digits_in_tables);
+  add("mean", &Spread::mean, 5);
+  add("greatest", &Spread::greatest, digits_in_tables);
+  add("deviation", &Spread::deviation, 3);
+  return table.only_for_programs("largest_error", &Spread::error)
+      .only_for_people("numerical error", [&](const Spread& f) { return cells(f, 0, digits_in_tables).error; })
       .column(
           "unit", "unit", [](const Spread& f) { return f.figure.unit; },
           [&s](const std::string& unit) { return s.reported(unit); })
@@ -298,8 +302,8 @@ Rows limit_table(const std::string& title, const std::vector<LimitCount>& limits
       .column("undecided", "within their error", &LimitCount::undecided)
       .column("beyond", "beyond", &LimitCount::beyond)
       .column(unknown, "without the figure", &LimitCount::unknown)
-      .column("low", from, [](const LimitCount& c) { return c.interval.low; }, {.factor = 100, .digits = 4})
-      .column("high", "to [%]", [](const LimitCount& c) { return c.interval.high; }, {.factor = 100, .digits = 4});
+      .column("low", from, [](const LimitCount& c) { return c.interval.low; }, {.factor = 100, .digits = 3})
+      .column("high", "to [%]", [](const LimitCount& c) { return c.interval.high; }, {.factor = 100, .digits = 3});
 }
 
 Claims share_claims(const std::vector<LimitCount>& limits, std::size_t failed, std::size_t machines) {
@@ -328,11 +332,9 @@ Findings findings_of(const SweepStudyResult& s) {
   f.claim(share_claims(s.tally.limits, s.tally.failed, s.tally.rows));
   for (const Spread& spread : spreads_of(s))
     if (f.figures.size() < 4)
-      f.figures.push_back({{s.reported(spread.greatest, spread.figure.unit)},
+      f.figures.push_back({s.reported(1, spread.figure.unit) * Estimate{spread.greatest, spread.error},
                            "greatest " + spread.figure.name,
-                           spread.figure.unit == "rad/s" ? s.speed_unit.name : spread.figure.unit,
-                           "",
-                           5,
+                           spread.figure.unit == "rad/s" ? s.speed_unit.name : spread.figure.unit, "", 0,
                            spread.figure.name});
   const Chapter limits = f.chapter(s.limits.empty() ? "Over two parameters" : "Limits"),
                 influence = f.chapter("What moves the figures"), curves = f.chapter("Response"),

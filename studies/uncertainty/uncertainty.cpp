@@ -86,27 +86,28 @@ class UncertaintyWork {
       double squares = 0;
       for (std::size_t p = 0; p < swept_.size(); ++p) {
         ToleranceShare share = share_of(f, p, near, short_step);
-        if (!(share.noise.value_or(0) <= most_noise * share.deviation)) {
+        if (!(share.deviation.error.value_or(0) <= most_noise * share.deviation.value)) {
           if (far.empty()) far = compute(about_nominal(long_step));
           share = share_of(f, p, far, long_step);
         }
-        if (!std::isfinite(share.deviation)) {
+        if (!std::isfinite(share.deviation.value)) {
           study_.notes.push_back(
               fmt::format("{}: no gradient by {}: at a value beside it the figure does not exist; it counts as none",
                           figure.figure.name, swept_[p].path));
-          share.gradient = share.deviation = 0, share.noise.reset();
+          share.gradient = 0, share.deviation = {};
         }
-        squares += share.deviation * share.deviation;
+        squares += share.deviation.value * share.deviation.value;
         figure.shares.push_back(share);
       }
-      figure.by_gradients = std::sqrt(squares);
+      figure.by_gradients.value = std::sqrt(squares);
       report_noise(figure);
       for (ToleranceShare& s : figure.shares) {
-        s.share = squares > 0 ? s.deviation * s.deviation / squares : 0;
-        s.without = std::sqrt(std::max(0.0, squares - s.deviation * s.deviation));
+        const double rest = squares - s.deviation.value * s.deviation.value;
+        s.without = {std::sqrt(std::max(0.0, rest)), figure.by_gradients.error};
+        if (squares > 0) s.share = s.deviation / figure.by_gradients, s.share = s.share * s.share;
       }
       std::stable_sort(figure.shares.begin(), figure.shares.end(),
-                       [](const ToleranceShare& a, const ToleranceShare& b) { return a.share > b.share; });
+                       [](const ToleranceShare& a, const ToleranceShare& b) { return a.share.value > b.share.value; });
     }
   }
 
@@ -115,9 +116,10 @@ class UncertaintyWork {
     std::string names;
     std::size_t within = 0;
     for (const ToleranceShare& s : figure.shares) {
-      if (!s.noise) continue;
-      figure.noise_floor = std::hypot(figure.noise_floor.value_or(0), *s.noise);
-      if (*s.noise > 0 && s.deviation <= *s.noise) names += (within++ ? ", " : "") + swept_[s.parameter].path;
+      const std::optional<double>& noise = s.deviation.error;
+      if (!noise) continue;
+      figure.by_gradients.error = std::hypot(figure.by_gradients.error.value_or(0), *noise);
+      if (*noise > 0 && s.deviation.value <= *noise) names += (within++ ? ", " : "") + swept_[s.parameter].path;
     }
     if (within > 0)
       below_noise_.push_back(figure.figure.name +
@@ -142,9 +144,9 @@ class UncertaintyWork {
     const double over = above.parameters[p] - below.parameters[p], u = study_.parameters[p].deviation();
     ToleranceShare share{.parameter = p, .step = step};
     share.gradient = (value_in(above, k) - value_in(below, k)) / over;
-    share.deviation = std::abs(share.gradient) * u;
+    share.deviation.value = std::abs(share.gradient) * u;
     const auto e_above = figure_in(above, k).error, e_below = figure_in(below, k).error;
-    if (e_above && e_below) share.noise = (*e_above + *e_below) / over * u;
+    if (e_above && e_below) share.deviation.error = (*e_above + *e_below) / over * u;
     return share;
   }
 
@@ -159,9 +161,11 @@ class UncertaintyWork {
     name_failures(rows);
     for (std::size_t f = 0; f < numbers_.size(); ++f) {
       std::vector<double> y;
+      double error = 0;
       for (const SweepRow& r : rows)
-        if (const double v = value_in(r, numbers_[f]); std::isfinite(v)) y.push_back(v);
-      spread(study_.figures[f], std::move(y));
+        if (const Estimate v = figure_in(r, numbers_[f]); std::isfinite(v.value))
+          y.push_back(v.value), error = std::max(error, v.error.value_or(0));
+      spread(study_.figures[f], std::move(y), error);
     }
     if (rows.size() < enough_for_ends)
       study_.notes.push_back(
@@ -185,28 +189,38 @@ class UncertaintyWork {
     for (const auto& [reason, found] : reasons) {
       std::string values;
       for (std::size_t p = 0; p < swept_.size(); ++p)
-        values += fmt::format("{}{} = {:.6g}{}{}", p ? ", " : "", swept_[p].path, found.second->parameters[p],
+        values += fmt::format("{}{} = {}{}{}", p ? ", " : "", swept_[p].path,
+                              rounded_number(found.second->parameters[p], digits_in_tables),
                               swept_[p].unit.empty() ? "" : " ", pretty_unit(swept_[p].unit));
       study_.notes.push_back(fmt::format("{} of {} machines drawn failed, and hold no limit: {}; the first with {}",
                                          found.first, rows.size(), reason, values));
     }
   }
 
-  static void spread(FigureUncertainty& figure, std::vector<double> y) {
+  // `error`: the largest of a run.
+  static void spread(FigureUncertainty& figure, std::vector<double> y, double error) {
     figure.samples = y.size();
     if (y.size() < 2) return;
     const auto n = static_cast<double>(y.size());
-    for (const double v : y) figure.mean += v / n;
-    double squares = 0;
-    for (const double v : y) squares += (v - figure.mean) * (v - figure.mean);
-    figure.by_samples = std::sqrt(squares / (n - 1));
+    double mean = 0, squares = 0, fourth = 0;
+    for (const double v : y) mean += v / n;
+    for (const double v : y) squares += (v - mean) * (v - mean), fourth += std::pow(v - mean, 4);
+    const double s = std::sqrt(squares / (n - 1));
+    figure.mean = {mean, 2 * s / std::sqrt(n) + error};
+    figure.by_samples = {s, error};  // s scatters by √((m₄ − s⁴)/n)/(2 s)
+    if (s > 0) figure.by_samples.widen(std::sqrt(std::max(0.0, fourth / n - std::pow(s, 4)) / n) / s);
     std::sort(y.begin(), y.end());
     const auto at = [&](double share) {
-      const double place = share * (n - 1);
+      const double place = std::clamp(share, 0.0, 1.0) * (n - 1);
       const auto i = static_cast<std::size_t>(place);
       return i + 1 < y.size() ? std::lerp(y[i], y[i + 1], place - static_cast<double>(i)) : y.back();
     };
-    if (y.size() >= enough_for_ends) figure.low = at(0.025), figure.high = at(0.975);
+    // The number of samples below a quantile is binomial.
+    const auto end = [&](double share) {
+      const double scatter = 2 * std::sqrt(share * (1 - share) / n);
+      return Estimate{at(share), 0.5 * (at(share + scatter) - at(share - scatter)) + error};
+    };
+    if (y.size() >= enough_for_ends) figure.low = end(0.025), figure.high = end(0.975);
   }
 
   // Each effect that is off and has data, tried by itself.
@@ -235,25 +249,21 @@ class UncertaintyWork {
     constexpr std::size_t most_reported = 4;
     std::size_t found = 0;
     for (const FigureUncertainty& f : study_.figures) {
-      if (f.is_linear() || f.by_gradients <= 0 || ++found > most_reported) continue;
-      const std::string unit = unit_of(f);
+      if (f.is_linear() || f.by_gradients.value <= 0 || ++found > most_reported) continue;
       study_.notes.push_back(fmt::format(
-          "{} does not follow its gradients over these tolerances: the samples have a deviation of {:.3g}{} about "
-          "{:.4g}{}, gradients say {:.3g}{} about {:.4g}{}; the samples are right, and shares by gradients are of "
-          "small tolerances only (kurbel sweep --design saltelli:N shares out what is not linear)",
-          f.figure.name, reported(f, f.by_samples), unit, reported(f, f.mean), unit, reported(f, f.by_gradients), unit,
-          reported(f, f.value), unit));
+          "{} does not follow its gradients over these tolerances: the samples have a deviation of {} about {}, "
+          "gradients say {} about {}; the samples are right, and shares by gradients are of small tolerances only "
+          "(kurbel sweep --design saltelli:N shares out what is not linear)",
+          f.figure.name, reported(f, f.by_samples, 3), reported(f, f.mean), reported(f, f.by_gradients, 3),
+          reported(f, f)));
     }
     if (found > most_reported)
       study_.notes.push_back(fmt::format("so do {} more figures: compare the two columns", found - most_reported));
   }
 
-  // A speed in the scene's unit, all else in SI.
-  static bool is_speed(const FigureUncertainty& f) { return f.figure.unit == "rad/s"; }
-  double reported(const FigureUncertainty& f, double x) const { return is_speed(f) ? study_.speed_unit.of(x) : x; }
-  std::string unit_of(const FigureUncertainty& f) const {
-    const std::string& name = is_speed(f) ? study_.speed_unit.name : f.figure.unit;
-    return name.empty() ? "" : " " + pretty_unit(name);
+  std::string reported(const FigureUncertainty& f, const Estimate& x, int most_digits = headline_digits) const {
+    const FigureCells cells = figure_cells(x, f.figure.unit, study_.speed_unit, most_digits);
+    return cells.unit.empty() ? cells.value : cells.value + " " + cells.unit;
   }
 
   void conclude() {
@@ -263,16 +273,14 @@ class UncertaintyWork {
                           text.empty() ? "" : "; ", c.limit, 100 * c.interval.low, 100 * c.interval.high, c.holds,
                           study_.drawn, c.undecided ? fmt::format(", {} undecided", c.undecided) : "");
     const auto figure = std::find_if(study_.figures.begin(), study_.figures.end(), [&](const FigureUncertainty& f) {
-      return f.by_gradients > 0 && (limits_.empty() || f.figure.name == figures_[limits_.front().figure].name);
+      return f.by_gradients.value > 0 && (limits_.empty() || f.figure.name == figures_[limits_.front().figure].name);
     });
     if (figure != study_.figures.end()) {
       const ToleranceShare& most = figure->shares.front();
-      const std::string unit = unit_of(*figure);
-      text += fmt::format("{}{} is {:.4g}{} with a standard deviation of {:.2g}{} by the tolerances",
-                          text.empty() ? "" : "; ", figure->figure.name, reported(*figure, figure->value), unit,
-                          reported(*figure, figure->deviation()), unit);
-      text += figure->is_linear() ? fmt::format("; {} contributes most: without its tolerance {:.2g}{}",
-                                                swept_[most.parameter].path, reported(*figure, most.without), unit)
+      text += fmt::format("{}{} is {} with a standard deviation of {} due to the tolerances", text.empty() ? "" : "; ",
+                          figure->figure.name, reported(*figure, *figure), reported(*figure, figure->deviation(), 2));
+      text += figure->is_linear() ? fmt::format("; {} contributes most: without its tolerance it would be {}",
+                                                swept_[most.parameter].path, reported(*figure, most.without, 2))
                                   : fmt::format(", not in proportion to them; it depends most on small changes of {}",
                                                 swept_[most.parameter].path);
     }
@@ -300,9 +308,9 @@ bool FigureUncertainty::is_linear() const {
   constexpr double of_deviation = 0.1, of_mean = 0.2, by_chance = 4;
   if (samples < fewest) return true;
   const double root = std::sqrt(static_cast<double>(samples));
-  return std::abs(by_samples - by_gradients) <=
-             of_deviation * by_gradients + by_chance * by_samples / (1.4142 * root) &&
-         std::abs(mean - value) <= (of_mean + by_chance / root) * by_samples;
+  const double s = by_samples.value, u = by_gradients.value;
+  return std::abs(s - u) <= of_deviation * u + by_chance * s / (1.4142 * root) &&
+         std::abs(mean.value - value) <= (of_mean + by_chance / root) * s;
 }
 
 UncertaintyStudy study_uncertainty(const MachineQuestion& question, const UncertaintyOptions& options) {

@@ -30,13 +30,12 @@ struct UncertaintyOptions {
 // Contribution of one parameter to one figure.
 struct ToleranceShare {
   std::size_t parameter = 0;
-  double gradient = 0;   // ∂y/∂x, x in its unit
-  double deviation = 0;  // |∂y/∂x| u
-  // Of the deviation: uncertainty from the measured errors of the two runs, (e₊ + e₋)/(x₊ − x₋) · u; empty: not measured.
-  std::optional<double> noise = {};
-  double step = 0;     // the difference was taken over ± this many deviations
-  double share = 0;    // of Σ deviation²
-  double without = 0;  // remaining u if this parameter had no tolerance
+  double gradient = 0;  // ∂y/∂x, x in its unit
+  // |∂y/∂x| u. Error: from the measured errors of the two runs, (e₊ + e₋)/(x₊ − x₋) · u; empty: not measured.
+  Estimate deviation = {};
+  double step = 0;        // the difference was taken over ± this many deviations
+  Estimate share = {};    // of Σ deviation²
+  Estimate without = {};  // remaining u if this parameter had no tolerance
 };
 
 // A shift, signed: with the effect − without.
@@ -47,10 +46,12 @@ struct Bias : Estimate {
 // With the measured error at the given values.
 struct FigureUncertainty : Estimate {
   SweptFigure figure;
-  double by_gradients = 0;                    // standard uncertainty u
-  std::optional<double> noise_floor = {};     // of u, √Σ noise²: smaller values may be numerical errors alone
-  double by_samples = 0, mean = 0;            // standard deviation and mean of the samples
-  std::optional<double> low = {}, high = {};  // 95 % of the samples lie between them; empty for fewer than 40
+  // Standard uncertainty u. Error: the noise floor, √Σ (errors of the deviations)²: a smaller u may be numerical error alone.
+  Estimate by_gradients = {};
+  // Standard deviation and mean of the samples; 95 % of them lie between low and high, empty for fewer than 40. Errors: two
+  // standard errors of n samples, for the ends the 95 % interval of a quantile, and the largest error of a run.
+  Estimate by_samples = {}, mean = {};
+  std::optional<Estimate> low = {}, high = {};
   std::size_t samples = 0;
   std::vector<ToleranceShare> shares = {};  // the greatest first
   std::vector<Bias> biases = {};
@@ -60,7 +61,7 @@ struct FigureUncertainty : Estimate {
   // (4 σ). Not decidable with fewer than 30 samples.
   bool is_linear() const;
   // By gradients if they are valid, else by samples.
-  double deviation() const { return is_linear() ? by_gradients : by_samples; }
+  const Estimate& deviation() const { return is_linear() ? by_gradients : by_samples; }
 };
 
 struct UncertaintyStudy : SceneStudy {

@@ -3,60 +3,55 @@
 
 #include <cmath>
 
-#include "engine/scene/units.h"
 #include "studies/sweep/sweep_findings.h"
 #include "studies/uncertainty/uncertainty.h"
 
 namespace kurbel {
 namespace {
 
-std::string as_unit(const std::string& unit) { return pretty_unit(unit); }
-
-// A speed in the scene's unit, all else in SI.
-double reported(const UncertaintyStudy& s, const std::string& unit, double value) {
-  return unit == "rad/s" ? s.speed_unit.of(value) : value;
-}
-std::optional<double> reported(const UncertaintyStudy& s, const std::string& unit, const std::optional<double>& value) {
-  return value ? std::optional(reported(s, unit, *value)) : value;
-}
-std::string reported_unit(const UncertaintyStudy& s, const std::string& unit) {
-  return as_unit(unit == "rad/s" ? s.speed_unit.name : unit);
-}
 const std::string& unit_of(const FigureUncertainty& f) { return f.figure.unit; }
 template <class Row>
 const std::string& unit_of(const Row& row) {
   return row.unit;
 }
 
-// For programs in SI, for people in the scene's unit.
-template <class Row, class Get, class Read>
+// An Estimate, or std::optional of one: for programs in SI, for people in the scene's unit, to where its error begins.
+template <class Row, class Get>
 RowsOf<Row>& add_quantity(const UncertaintyStudy& s, RowsOf<Row>& table, const char* key, const char* heading, Get get,
-                          Read read) {
-  return table.only_for_programs(key, get).only_for_people(
-      heading, [&](const Row& row) { return reported(s, unit_of(row), std::invoke(get, row)); }, read);
+                          int most_digits) {
+  const auto known = [get](const Row& row) { return std::optional<Estimate>(std::invoke(get, row)); };
+  return table.only_for_programs(key, [&](const Row& row) { return known(row).value_or(Estimate{NAN}).value; })
+      .only_for_people(heading, [&](const Row& row) {
+        return figure_cells(known(row).value_or(Estimate{NAN}), unit_of(row), s.speed_unit, most_digits).value;
+      });
+}
+// The numerical error of an Estimate.
+template <class Row, class Get>
+RowsOf<Row>& add_error(const UncertaintyStudy& s, RowsOf<Row>& table, const char* key, const char* heading, Get get) {
+  return table.only_for_programs(key, [get](const Row& row) { return std::invoke(get, row).error; })
+      .only_for_people(heading, [&s, get](const Row& row) {
+        return figure_cells({0, std::invoke(get, row).error}, unit_of(row), s.speed_unit).error;
+      });
 }
 template <class Row>
 RowsOf<Row>& add_unit(const UncertaintyStudy& s, RowsOf<Row>& table) {
   return table.only_for_programs("unit", [](const Row& row) { return unit_of(row); })
-      .only_for_people("unit", [&](const Row& row) { return reported_unit(s, unit_of(row)); });
+      .only_for_people("unit", [&](const Row& row) { return figure_cells({}, unit_of(row), s.speed_unit).unit; });
 }
 
 Rows figure_table(const UncertaintyStudy& s) {
   using F = FigureUncertainty;
   auto table = table_of("figures", "Figures of machines within these tolerances", s.figures);
   table.column("figure", "figure", [](const F& f) { return f.figure.name; });
-  const auto quantity = [&](const char* key, const char* heading, auto member, int digits) {
-    add_quantity(s, table, key, heading, member, ReadAs{.digits = digits});
-  };
   table.only_for_programs("value", &F::value).only_for_programs("numerical", &F::error);
   table.value_and_error("as given",
                         [&s](const F& f, int digits) { return figure_cells(f, f.figure.unit, s.speed_unit, digits); });
-  quantity("by_gradients", "deviation by gradients", &F::by_gradients, 3);
-  quantity("noise_floor", "noise floor", &F::noise_floor, 1);
-  quantity("by_samples", "by samples", &F::by_samples, 3);
-  quantity("mean", "mean", &F::mean, 6);
-  quantity("low", "95 % from", &F::low, 5);
-  quantity("high", "to", &F::high, 5);
+  add_quantity(s, table, "by_gradients", "deviation by gradients", &F::by_gradients, 3);
+  add_error(s, table, "noise_floor", "noise floor", &F::by_gradients);
+  add_quantity(s, table, "by_samples", "by samples", &F::by_samples, 3);
+  add_quantity(s, table, "mean", "mean", &F::mean, 5);
+  add_quantity(s, table, "low", "95 % from", &F::low, 5);
+  add_quantity(s, table, "high", "to", &F::high, 5);
   return add_unit(s, table).column("samples", "samples", &F::samples);
 }
 
@@ -68,7 +63,7 @@ std::vector<ShareRow> share_rows(const UncertaintyStudy& s) {
   std::vector<ShareRow> rows;
   for (const FigureUncertainty& f : s.figures)
     for (const ToleranceShare& share : f.shares)
-      if (f.by_gradients > 0)
+      if (f.by_gradients.value > 0)
         rows.push_back({f.figure.name, s.parameters[share.parameter].given().path, f.figure.unit, share});
   return rows;
 }
@@ -81,16 +76,16 @@ Rows share_table(const UncertaintyStudy& s) {
       .text_in(2)
       .column("figure", "figure", &ShareRow::figure)
       .column("parameter", "tolerance", &ShareRow::parameter)
-      .column("share", "share [%]", [](const ShareRow& r) { return r.share.share; }, {.factor = 100, .digits = 3});
-  add_quantity(
-      s, table, "deviation", "deviation", [](const ShareRow& r) { return r.share.deviation; }, ReadAs{.digits = 3})
-      .only_for_programs("gradient", [](const ShareRow& r) { return r.share.gradient; });
-  add_quantity(
-      s, table, "noise", "numerical noise", [](const ShareRow& r) { return r.share.noise; }, ReadAs{.digits = 1})
+      .only_for_programs("share", [](const ShareRow& r) { return r.share.share.value; })
+      .only_for_people("share [%]", [](const ShareRow& r) { return figure_text(100 * r.share.share, 3).value; });
+  const auto deviation = [](const ShareRow& r) { return r.share.deviation; };
+  add_quantity(s, table, "deviation", "deviation", deviation, 3).only_for_programs("gradient", [](const ShareRow& r) {
+    return r.share.gradient;
+  });
+  add_error(s, table, "noise", "numerical noise", deviation)
       .column("step", "step [deviations]", [](const ShareRow& r) { return r.share.step; }, {.digits = 1});
   add_quantity(
-      s, table, "without", "deviation without it", [](const ShareRow& r) { return r.share.without; },
-      ReadAs{.digits = 3});
+      s, table, "without", "deviation without it", [](const ShareRow& r) { return r.share.without; }, 3);
   return add_unit(s, table);
 }
 
@@ -132,9 +127,9 @@ bool alike(const FigureUncertainty& a, const FigureUncertainty& b) {
   const auto near = [](double x, double y) { return std::abs(x - y) <= within * std::max(std::abs(x), std::abs(y)); };
   if (a.figure.unit != b.figure.unit || a.shares.size() != b.shares.size() || a.biases.size() != b.biases.size())
     return false;
-  return near(a.value, b.value) && near(a.deviation(), b.deviation()) &&
+  return near(a.value, b.value) && near(a.deviation().value, b.deviation().value) &&
          std::equal(a.shares.begin(), a.shares.end(), b.shares.begin(), [&](const auto& x, const auto& y) {
-           return x.parameter == y.parameter && near(x.deviation, y.deviation);
+           return x.parameter == y.parameter && near(x.deviation.value, y.deviation.value);
          });
 }
 
@@ -143,7 +138,7 @@ std::vector<Plot> pictures(const UncertaintyStudy& s) {
   std::vector<Plot> plots;
   std::vector<const FigureUncertainty*> drawn;
   for (const FigureUncertainty& f : s.figures) {
-    if (!(std::abs(f.value) > 0) || !(f.by_gradients > 0) || plots.size() >= 6) continue;
+    if (!(std::abs(f.value) > 0) || !(f.by_gradients.value > 0) || plots.size() >= 6) continue;
     if (std::any_of(drawn.begin(), drawn.end(), [&f](const auto* other) { return alike(*other, f); })) continue;
     drawn.push_back(&f);
     const double percent = 100 / std::abs(f.value);
@@ -158,10 +153,10 @@ std::vector<Plot> pictures(const UncertaintyStudy& s) {
       plot.x.names.push_back(name);
     };
     bar("numerical error", Role::reference, percent * f.error.value_or(0));
-    bar("all tolerances, one deviation", Role::elastic, percent * f.deviation());
+    bar("all tolerances, one deviation", Role::elastic, percent * f.deviation().value);
     for (std::size_t k = 0; k < f.shares.size() && k < 4; ++k)
       bar("tolerance of " + s.parameters[f.shares[k].parameter].given().path, Role::sky,
-          percent * f.shares[k].deviation);
+          percent * f.shares[k].deviation.value);
     for (const FigureUncertainty& other : s.figures)
       if (&other != &f && alike(f, other))
         plot.note += (plot.note.empty() ? "The same within 1 %: " : ", ") + other.figure.name;
@@ -178,11 +173,13 @@ Findings findings_of(const UncertaintyStudy& s) {
   f.conclude(s.complete, s.conclusion);
   f.claim(share_claims(s.limits, s.failed, s.drawn));
   for (const FigureUncertainty& figure : s.figures)
-    if (figure.by_gradients > 0 && f.figures.size() < 4) {
+    if (figure.by_gradients.value > 0 && f.figures.size() < 4) {
       const std::string& unit = figure.figure.unit;
-      const Estimate value{reported(s, unit, figure.value), reported(s, unit, 2 * figure.deviation())};
-      f.figures.push_back({value, figure.figure.name, unit == "rad/s" ? s.speed_unit.name : unit,
-                           "two deviations of the tolerances", 0, figure.figure.name});
+      const bool is_speed = unit == "rad/s";
+      const Estimate value{figure.value, 2 * figure.deviation().value};
+      f.figures.push_back({value / (is_speed ? s.speed_unit.size : 1), figure.figure.name,
+                           is_speed ? s.speed_unit.name : unit, "two deviations of the tolerances", 0,
+                           figure.figure.name});
     }
   const Chapter limits = f.chapter("Limits"), figures = f.chapter("Figures"),
                 shares = f.chapter("Which tolerance matters"), biases = f.chapter("Known biases"),

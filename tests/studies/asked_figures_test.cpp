@@ -41,11 +41,11 @@ TEST(AskedFigures, OfASineOverARunAreThoseOfTheClosedForm) {
     ]
     run = { until = "3 s" }
   )");
-  expect(r.figures, "time_above_torque.7.drive", 1);
-  expect(r.figures, "time_above_torque.12.5.drive", 0);
-  expect(r.figures, "time_above_torque.-9.drive", 3);
-  ASSERT_TRUE(r.find("time_above_torque.7.drive"));
-  EXPECT_EQ(r.find("time_above_torque.7.drive")->unit, "s");
+  expect(r.figures, "time_above_torque.0.007kN*m.drive", 1);
+  expect(r.figures, "time_above_torque.12.5N*m.drive", 0);
+  expect(r.figures, "time_above_torque.-9N*m.drive", 3);
+  ASSERT_TRUE(r.find("time_above_torque.0.007kN*m.drive"));
+  EXPECT_EQ(r.find("time_above_torque.0.007kN*m.drive")->unit, "s");
   expect(r.figures, "max_torque.drive", 12, 1e-5);
   expect(r.figures, "min_torque.drive", -8, 1e-5);
   expect(r.figures, "peak_torque.drive", 12, 1e-5);
@@ -69,7 +69,7 @@ TEST(AskedFigures, TimeAboveALevelIsLocatedOnTheSolution) {
   )");
   const double turns = std::floor(omega * until / (2 * pi)), rest = omega * until - 2 * pi * turns;
   const double above = 2 * alpha * turns + std::min(rest, alpha) + std::max(0.0, rest - (2 * pi - alpha));
-  expect(r.figures, "time_above_twist.0.2.spring", above / omega, 1e-7);
+  expect(r.figures, "time_above_twist.0.2rad.spring", above / omega, 1e-7);
   const double square = 0.5 * 0.09 * (1 + std::sin(2 * omega * until) / (2 * omega * until));
   expect(r.figures, "rms_twist.spring", std::sqrt(square), 1e-7);
 }
@@ -120,13 +120,13 @@ TEST(AskedFigures, OfStepsOfASequenceAreThoseOfATrapezoid) {
   )");
   expect(r.figures, "step_min_torque.1.brake", -40, 1e-4);
   expect(r.figures, "step_max_torque.1.brake", -10, 1e-4);
-  expect(r.figures, "step_time_above_torque.1.-20.brake", 0.2 * (0.5 - 0.25) / (1 - 0.25) + 0.2);
+  expect(r.figures, "step_time_above_torque.1.-20N*m.brake", 0.2 * (0.5 - 0.25) / (1 - 0.25) + 0.2);
   expect(r.figures, "step_min_torque.2.brake", -30, 1e-4);
   expect(r.figures, "step_max_torque.2.brake", -10, 1e-4);
   expect(r.figures, "step_mean_torque.2.brake", -25, 1e-4);
   expect(r.figures, "step_rms_torque.2.brake",
          40 * std::sqrt((0.2 * (0.0625 + 0.1875 + 0.5625) / 3 + 0.2 * 0.5625) / 0.4), 1e-4);
-  expect(r.figures, "step_time_above_torque.2.-20.brake", 0.1);
+  expect(r.figures, "step_time_above_torque.2.-20N*m.brake", 0.1);
   expect(r.figures, "step_peak_torque.3.brake", -30, 1e-4);
   expect(r.figures, "step_mean_torque.3.brake", -30 * 0.05 / 0.2, 1e-4);
   // ∫ M dt/J up to 0.6 s: 0.2 s at 40, 0.2 s at 25 in the mean, 0.2 s at 10 N·m.
@@ -150,7 +150,7 @@ TEST(AskedFigures, OfAStepOfARepeatedSequenceAreOfTheLastWholeRepetition) {
   )");
   expect(r.figures, "step_mean_torque.1.brake", -40 * 0.15 / 0.2, 1e-4);
   expect(r.figures, "step_mean_torque.2.brake", -40 * 0.05 / 0.3, 1e-4);
-  expect(r.figures, "step_time_above_torque.1.-10.brake", 0.1 * 0.25);
+  expect(r.figures, "step_time_above_torque.1.-10N*m.brake", 0.1 * 0.25);
 }
 
 const char* const cranked = R"(
@@ -182,7 +182,7 @@ TEST(AskedFigures, OfACycleAreThoseOfTheClosedFormInRunsAndSteadyMotion) {
   const Result run = simulate(scene, scene.effects, "run", {});
   ASSERT_TRUE(s.cycles.back().found) << s.cycles.back().why;
   for (const std::vector<Figure>* figures : {&run.figures, &s.cycles.back().figures}) {
-    expect(*figures, "cycle_time_above_position.0.2.press", above);
+    expect(*figures, "cycle_time_above_position.0.2m.press", above);
     expect(*figures, "cycle_max_position.press", r + l);
     expect(*figures, "cycle_mean_position.press", mean);
     expect(*figures, "cycle_rms_velocity.press", std::sqrt(square));
@@ -232,7 +232,7 @@ TEST(AskedFigures, AreRefusedAtTheirPlace) {
 
 TEST(AskedFigures, AreListedAndExplained) {
   const std::vector<Figure> list = listed(cranked);
-  const Figure* f = find(list, "cycle_time_above_position.0.2.press");
+  const Figure* f = find(list, "cycle_time_above_position.0.2m.press");
   ASSERT_TRUE(f);
   EXPECT_EQ(f->unit, "s");
   ASSERT_TRUE(definition_of(f->name));
@@ -242,7 +242,7 @@ TEST(AskedFigures, AreListedAndExplained) {
   EXPECT_EQ(said_of_channel("peak_current.motor"), "its greatest magnitude in a whole run, with its sign");
   EXPECT_EQ(said_of_channel("cycle_peak_torque.main_coupling"), "");  // has words of its own
   EXPECT_EQ(definition_of("step_rms_torque.2.motor"), definition_of("torque"));
-  EXPECT_EQ(definition_of("step_time_above_torque.2.40.motor"), definition_of(f->name));
+  EXPECT_EQ(definition_of("step_time_above_torque.2.40N*m.motor"), definition_of(f->name));
 }
 
 }  // namespace

@@ -1,11 +1,14 @@
-// figure_text_test.cpp — a figure and its error as they are printed: digits end where the error begins.
+// figure_text_test.cpp — a figure and its error as they are printed: digits end where the error begins; tables on a terminal.
 #include "studies/findings/figure_text.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
+
+#include "studies/findings/output.h"
 
 namespace kurbel::figure_text_test {
 namespace {
@@ -60,6 +63,7 @@ TEST(FigureText, DurationsHaveTheUnitOfTheirSize) {
 
 TEST(FigureText, WithoutAnErrorHasSixDigitsAtMostAndSaysSo) {
   EXPECT_EQ(with_error({724.88551234}, "N*m"), "724.886 N·m");
+  EXPECT_EQ(figure_text({724.88551234}, 3).value, "725");
   EXPECT_EQ(error_cell({724.88551234}), "not measured");
   EXPECT_EQ(error_cell({1, std::numeric_limits<double>::infinity()}), "not measured");
 }
@@ -98,6 +102,46 @@ TEST(FigureText, CoversWhatItStandsForAndNoDigitIsBeyondTheError) {
       const double last_place = std::pow(10, -static_cast<double>(text.value.size() - point - 1));
       ASSERT_GE(last_place, printed_error / 20) << text.value << " " << text.error;
     }
+  }
+}
+
+// Tables of random lengths: together at most 48 rows, and a line more for each, or eight rows of each; none that is cut
+// shows fewer than one that is not; with everything requested all rows.
+TEST(TerminalTables, AreCutWhereTheyAreLong) {
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 300; ++trial) {
+    std::vector<std::size_t> lengths(1 + random() % 7);
+    Findings f;
+    const Chapter chapter = f.chapter("tables");
+    for (std::size_t k = 0; k < lengths.size(); ++k) {
+      lengths[k] = 1 + random() % (random() % 2 ? 10 : 120);
+      f.say(chapter,
+            table_of("", "", numbers_below(lengths[k])).only_for_people(fmt::format("table{}", k), [k](std::size_t) {
+              return fmt::format("row{}", k);
+            }));
+    }
+    const std::string text = terminal_text(f), whole = terminal_text(f, true);
+    std::size_t sum = 0, least_cut = SIZE_MAX, most_whole = 0;
+    for (std::size_t k = 0; k < lengths.size(); ++k) {
+      const auto rows = [&](const std::string& all) {
+        const std::string row = fmt::format("row{}\n", k);
+        std::size_t count = 0;
+        for (std::size_t at = all.find(row); at != std::string::npos; at = all.find(row, at + 1)) ++count;
+        return count;
+      };
+      EXPECT_EQ(rows(whole), lengths[k]);
+      sum += rows(text);
+      if (rows(text) == lengths[k]) {
+        most_whole = std::max(most_whole, lengths[k]);
+        continue;
+      }
+      least_cut = std::min(least_cut, rows(text));
+      EXPECT_GE(rows(text), 8u);
+      EXPECT_NE(text.find(fmt::format("  {} more rows (report, or --all)\n", lengths[k] - rows(text))),
+                std::string::npos);
+    }
+    EXPECT_LE(sum, std::max<std::size_t>(48, 8 * lengths.size()) + lengths.size());
+    EXPECT_LE(most_whole, std::max(least_cut, least_cut + 1));  // nothing cut: SIZE_MAX
   }
 }
 

@@ -53,15 +53,20 @@ TEST(Uncertainty, OfATwoMassResonanceIsItsClosedFormDistribution) {
   const boost::math::normal k(stiffness, deviation);
   EXPECT_NEAR(f.value, resonance(stiffness, j2), 1e-9);
   // First order: u = f/(2k) · 200; the central difference over ± 0.2 u is off by (0.2 · 0.05)²/8.
-  EXPECT_NEAR(f.by_gradients, f.value / (2 * stiffness) * deviation, 2e-5 * f.by_gradients);
-  EXPECT_NEAR(f.shares.at(0).share, 1, 1e-12);
-  EXPECT_NEAR(f.shares[0].without, 0, 1e-12);
+  EXPECT_NEAR(f.by_gradients.value, f.value / (2 * stiffness) * deviation, 2e-5 * f.by_gradients.value);
+  EXPECT_NEAR(f.shares.at(0).share.value, 1, 1e-12);
+  EXPECT_NEAR(f.shares[0].without.value, 0, 1e-12);
   // Mean and deviation of √k by its series: E = √k (1 − c²/8), u = √k c/2 (1 + 7c²/64 …), c = 0.05.
-  EXPECT_NEAR(f.mean, f.value * (1 - 0.05 * 0.05 / 8), 3.5 * f.by_gradients / std::sqrt(4000.0));
-  EXPECT_NEAR(f.by_samples, f.by_gradients, 3.5 * f.by_gradients / std::sqrt(8000.0));
+  EXPECT_NEAR(f.mean.value, f.value * (1 - 0.05 * 0.05 / 8), 3.5 * f.by_gradients.value / std::sqrt(4000.0));
+  EXPECT_NEAR(f.by_samples.value, f.by_gradients.value, 3.5 * f.by_gradients.value / std::sqrt(8000.0));
   // Quantiles scatter by √(p (1 − p)/n)/density: 4 % of u here.
-  EXPECT_NEAR(f.low.value(), resonance(boost::math::quantile(k, 0.025), j2), 3.5 * 0.042 * f.by_gradients);
-  EXPECT_NEAR(f.high.value(), resonance(boost::math::quantile(k, 0.975), j2), 3.5 * 0.042 * f.by_gradients);
+  EXPECT_NEAR(f.low->value, resonance(boost::math::quantile(k, 0.025), j2), 3.5 * 0.042 * f.by_gradients.value);
+  EXPECT_NEAR(f.high->value, resonance(boost::math::quantile(k, 0.975), j2), 3.5 * 0.042 * f.by_gradients.value);
+  // Two standard errors: 2 u/√n of the mean, 2 u/√(2n) of the deviation.
+  EXPECT_NEAR(f.mean.error.value(), 2 * f.by_gradients.value / std::sqrt(4000.0), 0.05 * f.mean.error.value());
+  EXPECT_NEAR(f.by_samples.error.value(), 2 * f.by_gradients.value / std::sqrt(8000.0),
+              0.1 * f.by_samples.error.value());
+  EXPECT_NEAR(f.low->error.value(), 2 * 0.042 * f.by_gradients.value, 0.3 * f.low->error.value());
   const double chance = boost::math::cdf(k, at_limit);
   ASSERT_EQ(s.limits.size(), 1u);
   EXPECT_LT(s.limits[0].interval.low, chance);
@@ -94,10 +99,10 @@ TEST(Uncertainty, SharesOfTwoTolerancesAreThoseOfTheDerivatives) {
   const double by_j = f.value / 2 / (0.3 * 0.3) / (1 / j1 + 1 / 0.3) * 0.06 / std::sqrt(6.0);
   ASSERT_EQ(f.shares.size(), 2u);
   const ToleranceShare& of_k = f.shares[0].parameter == 0 ? f.shares[0] : f.shares[1];
-  EXPECT_NEAR(of_k.share, by_k * by_k / (by_k * by_k + by_j * by_j), 1e-3);
-  EXPECT_NEAR(f.by_gradients, std::hypot(by_k, by_j), 1e-3 * f.by_gradients);
-  EXPECT_NEAR(f.by_samples, f.by_gradients, 0.08 * f.by_gradients);
-  EXPECT_NEAR(of_k.without, by_j, 1e-3 * by_j);
+  EXPECT_NEAR(of_k.share.value, by_k * by_k / (by_k * by_k + by_j * by_j), 1e-3);
+  EXPECT_NEAR(f.by_gradients.value, std::hypot(by_k, by_j), 1e-3 * f.by_gradients.value);
+  EXPECT_NEAR(f.by_samples.value, f.by_gradients.value, 0.08 * f.by_gradients.value);
+  EXPECT_NEAR(of_k.without.value, by_j, 1e-3 * by_j);
 }
 
 // Φ cut off at 0: of a deviation as large as the value 15.87 % lie below, and are told.
@@ -172,7 +177,7 @@ TEST(Uncertainty, BiasesAreSignedShiftsOfEffectsThatAreOff) {
   options.figures = {"peak_torque.main_coupling"};
   const UncertaintyStudy s = study_uncertainty(q, options);
   const FigureUncertainty& f = of_figure(s, "peak_torque.main_coupling");
-  EXPECT_GT(f.by_gradients, 0);
+  EXPECT_GT(f.by_gradients.value, 0);
   ASSERT_TRUE(f.error);
   ASSERT_FALSE(f.biases.empty());
   const Scene elastic =
@@ -203,12 +208,12 @@ TEST(Uncertainty, NoiseFloorsFollowFromTheErrorsOfTheRuns) {
   const UncertaintyStudy s = study_uncertainty(q, options);
   const FigureUncertainty& f = of_figure(s, "peak_torque.main_coupling");
   ASSERT_EQ(f.shares.size(), 2u);
-  ASSERT_TRUE(f.noise_floor && f.shares[0].noise && f.shares[1].noise);
-  EXPECT_DOUBLE_EQ(*f.noise_floor, std::hypot(*f.shares[0].noise, *f.shares[1].noise));
+  ASSERT_TRUE(f.by_gradients.error && f.shares[0].deviation.error && f.shares[1].deviation.error);
+  EXPECT_DOUBLE_EQ(*f.by_gradients.error, std::hypot(*f.shares[0].deviation.error, *f.shares[1].deviation.error));
   bool any_below = false;
   for (const ToleranceShare& share : f.shares) {
     EXPECT_EQ(share.step, 1);  // the errors are more than 2 % of so small a difference
-    any_below = any_below || share.deviation <= *share.noise;
+    any_below = any_below || share.deviation.value <= *share.deviation.error;
     const Tolerated& of = s.parameters[share.parameter];
     double errors = 0;
     for (const double sign : {-1.0, 1.0}) {
@@ -218,7 +223,7 @@ TEST(Uncertainty, NoiseFloorsFollowFromTheErrorsOfTheRuns) {
       for (const Figure& figure : answer_of(beside).figures)
         if (figure.name == f.figure.name) errors += figure.error.value();
     }
-    EXPECT_NEAR(*share.noise, errors / 2, 1e-6 * errors) << of.given().path;
+    EXPECT_NEAR(*share.deviation.error, errors / 2, 1e-6 * errors) << of.given().path;
   }
   EXPECT_EQ(any_below, !s.notes.empty() && s.notes.back().find("below the noise floor") != std::string::npos);
 }
@@ -239,12 +244,13 @@ TEST(Uncertainty, WhatGradientsDoNotFollowIsReportedByItsSamples) {
   const FigureUncertainty& f = of_figure(s, "final_speed.wheel");
   const double mean = std::log(9.0) / 1.6, u = std::sqrt((5 - 5 / 9.0) / 1.6 - mean * mean);
   EXPECT_NEAR(f.value, 10, 1e-9);
-  EXPECT_NEAR(f.by_gradients, 8 / std::sqrt(3.0), 0.05);              // of a central difference over ± 0.2 deviations
-  EXPECT_NEAR(f.by_samples, 10 * u, 4 * 10 * u / std::sqrt(4000.0));  // long tails scatter by more than 1/√(2n)
+  EXPECT_NEAR(f.by_gradients.value, 8 / std::sqrt(3.0), 0.05);  // of a central difference over ± 0.2 deviations
+  EXPECT_NEAR(f.by_samples.value, 10 * u, 4 * 10 * u / std::sqrt(4000.0));  // long tails scatter by more than 1/√(2n)
   EXPECT_FALSE(f.is_linear());
-  EXPECT_EQ(f.deviation(), f.by_samples);
-  EXPECT_NE(s.conclusion.find(fmt::format("a standard deviation of {:.2g} rpm", 30 / std::numbers::pi * f.by_samples)),
-            std::string::npos)
+  EXPECT_EQ(&f.deviation(), &f.by_samples);
+  EXPECT_NE(
+      s.conclusion.find(fmt::format("a standard deviation of {:.2g} rpm", 30 / std::numbers::pi * f.by_samples.value)),
+      std::string::npos)
       << s.conclusion;
   ASSERT_EQ(s.notes.size(), 1u);
   EXPECT_NE(s.notes[0].find("does not follow its gradients"), std::string::npos) << s.notes[0];
