@@ -324,11 +324,10 @@ class Simulation {
   // Another method of similar cost for the same figures: another order, another family, or time instead of angle.
   std::string confirming_method() const {
     const std::string& asked = settings_.method;
-    if (asked == "auto") return fine_->outcome.statistics.method == name_of(Method::work_equation) ? "dop853" : "auto";
     if (asked == "dop853") return "verner6";
-    if (asked == "esdirk5") return "esdirk";  // "auto" may take esdirk5 itself where the machine is stiff
-    if (asked == "esdirk" || asked == "esdirk3" || asked == "bdf") return "auto";
-    return "dop853";  // dopri5, work, verner6, fehlberg8, adams
+    if (asked == "esdirk5") return "esdirk";  // "auto" takes esdirk5 itself here where the machine is stiff
+    if (asked == "dopri5" || asked == "verner6" || asked == "fehlberg8" || asked == "adams") return "dop853";
+    return "auto";  // that is verner6 and esdirk5 here: the work equation has the steps of dop853 near rest
   }
 
   // The same machine with its mechanisms extracted anew, if they use tables and are described by the scene.

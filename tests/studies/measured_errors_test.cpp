@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <random>
 
 #include "engine/events/equations.h"
+#include "engine/scene/effects.h"
+#include "studies/findings/figure_changes.h"
 #include "studies/run/simulate.h"
 #include "tests/support/scenes.h"
 
@@ -178,6 +181,35 @@ run = {{ start = {{ a = {{ speed = "{:.17g} rad/s" }}, b = {{ speed = "1 rad/s" 
     if (rate * t > 0.5 * M_PI) expect("peak_spring_torque.shaft", std::abs(w - 1) / rate * c);
   }
   EXPECT_GE(covered, 0.985 * all);
+}
+
+// The work equation goes over time near rest, by the steps of dop853: starts alone, of a table that a motor shakes.
+TEST(Confirmation, StartsOfTheWorkEquationLieWithinTheirStatedErrors) {
+  Scene scene = test::scene_file("scenes/scotch_yoke.toml");
+  scene.run.until = 0.1;
+  int covered = 0, all = 0;
+  for (int start = 0; start < 6; ++start) {
+    scene.run.start.angle = start;
+    const auto model = compile(scene, without_elasticity(scene.effects));
+    const Result truth =
+        simulate(model, "", {.measure_error = false, .method = "verner6", .accuracy = 1e-11, .until = {}});
+    for (const double accuracy : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
+      const Result r = simulate(model, "", {.method = "work", .accuracy = accuracy, .until = {}});
+      ASSERT_TRUE(r.complete && r.errors_measured) << r.diagnosis;
+      for (const Figure& f : r.figures) {
+        const Figure* expected = truth.find(f.name);
+        if (!expected || !f.error) continue;
+        ++all;
+        const bool within = apart(f, *expected) <= *f.error + 1e-11 * f.scale;
+        covered += within;
+        if (!within)
+          std::printf("%s from %d rad at %.0e: stated %.1e, true %.1e\n", f.name.c_str(), start, accuracy, *f.error,
+                      apart(f, *expected));
+      }
+    }
+  }
+  EXPECT_GE(all, 900);
+  EXPECT_GE(covered, 0.997 * all);
 }
 
 }  // namespace
