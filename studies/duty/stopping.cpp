@@ -1,6 +1,8 @@
 // stopping.cpp — events of a run, one after the other, until the link stands.
 #include "studies/duty/stopping.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "engine/numerics/index.h"
@@ -53,7 +55,8 @@ std::optional<Stopping> first_stopping(const Model& model, const EventLog& event
       last[e.component] = to;
     }
     if (e.component == link && e.kind == EventKind::rest && signal)
-      return Stopping{e.t - signal->t, e.angle - signal->angle, e.t};
+      return Stopping{e.t - signal->t, e.angle - signal->angle, e.t,
+                      std::max(std::abs(e.angle), std::abs(signal->angle))};
   }
   return {};
 }

@@ -15,6 +15,7 @@ namespace kurbel {
 struct Stopping {
   double time = 0, angle = 0;  // of the link [s], [rad]
   double at = 0;               // time of standstill [s]
+  double largest_angle = 0;    // of the two whose difference the angle is [rad]
 };
 // The first stop of a run; empty: the link does not come to rest, or no command stops it.
 std::optional<Stopping> first_stopping(const Model& model, const EventLog& events);

@@ -1,6 +1,7 @@
 // work_periods.cpp — cycles sorted into periods, works summed up between them.
 #include "studies/duty/work_periods.h"
 
+#include <cmath>
 #include <string>
 
 namespace kurbel {
@@ -11,13 +12,19 @@ constexpr std::array names = {"run_up", "steady_motion", "run_down"};
 // A time at which works and energy are known.
 struct Border {
   double t = 0, energy = 0;
-  std::array<double, 4> work{};
+  std::array<double, 4> work{}, resolution{};
 };
+
+double sum_of(const std::array<double, 4>& work) { return work[0] + work[1] + work[2] + work[3]; }
 
 WorkPeriod between(const char* name, const Border& a, const Border& b) {
   WorkPeriod p{.name = name, .begin = a.t, .end = b.t};
-  for (std::size_t i = 0; i < p.work.size(); ++i) p.work[i] = b.work[i] - a.work[i];
+  for (std::size_t i = 0; i < p.work.size(); ++i) {
+    p.work[i] = b.work[i] - a.work[i];
+    p.work_resolution[i] = std::abs(a.resolution[i]) + std::abs(b.resolution[i]);
+  }
   p.energy = b.energy - a.energy;
+  p.energy_resolution = std::abs(sum_of(a.resolution)) + std::abs(sum_of(b.resolution));
   return p;
 }
 
@@ -61,7 +68,6 @@ std::vector<WorkPeriod> work_periods(const Model& m, const Periods& periods, con
                                      const WholeRun& whole,
                                      const std::function<std::optional<std::array<double, 4>>(double t)>& works_at) {
   if (whole.work.empty()) return {};
-  const auto sum = [](const std::array<double, 4>& work) { return work[0] + work[1] + work[2] + work[3]; };
   const auto border_at = [&](double t) -> std::optional<Border> {
     if (t == whole.begin) return Border{t, whole.energy_begin, {}};
     if (t == whole.end || t == periods.standstill) return Border{t, whole.energy_end, works_by_kind(m, whole.work)};
@@ -70,7 +76,16 @@ std::vector<WorkPeriod> work_periods(const Model& m, const Periods& periods, con
     Border known{whole.begin, whole.energy_begin, {}};
     for (const CycleRecord& c : cycles)
       if (c.begin <= t && !c.work_before.empty()) known = {c.begin, c.energy_before, works_by_kind(m, c.work_before)};
-    return Border{t, known.energy + sum(*work) - sum(known.work), *work};
+    Border border{t, known.energy + sum_of(*work) - sum_of(known.work), *work};
+    if (t != periods.run_up_end) return border;
+    // Works near the border are known within a step to either side of it, which may be shorter than the shift.
+    for (double shift = periods.run_up_resolution, part = 1; part > 1e-3; part /= 2)
+      for (const double h : {part * shift, -part * shift})
+        if (const auto beside = t + h == t ? std::nullopt : works_at(t + h)) {
+          for (std::size_t i = 0; i < work->size(); ++i) border.resolution[i] = ((*beside)[i] - (*work)[i]) / part;
+          return border;
+        }
+    return border;
   };
   std::vector<WorkPeriod> list;
   for (const WorkPeriod& p : three_periods(periods, whole.begin, whole.end)) {
@@ -89,12 +104,14 @@ void report_works(const Model& m, const std::vector<WorkPeriod>& periods, Figure
     const auto report_one = [&](const char* of, auto value) {
       report(Name::own("work_of_" + name, of), [&]() -> std::optional<Found> {
         if (period == periods.end()) return {};
-        return Found{value(*period)};
+        return value(*period);
       });
     };
     for (std::size_t i = 0; i < all_accounts.size(); ++i)
-      report_one(name_of(all_accounts[i]), [i](const WorkPeriod& p) { return p.work[i]; });
-    report_one("energy", [](const WorkPeriod& p) { return p.energy; });
+      report_one(name_of(all_accounts[i]),
+                 [i](const WorkPeriod& p) { return Found{.value = p.work[i], .resolution = p.work_resolution[i]}; });
+    report_one("energy",
+               [](const WorkPeriod& p) { return Found{.value = p.energy, .resolution = p.energy_resolution}; });
   }
 }
 

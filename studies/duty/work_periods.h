@@ -33,7 +33,10 @@ struct WorkPeriod {
   double begin = 0, end = 0;     // [s]
   std::array<double, 4> work{};  // by Account: driving, useful, harmful, weight [J]
   double energy = 0;             // ΔE, of kinetic and stored energy as they are at both ends [J]
-  double residual() const;       // ΔE minus all works: residual of the balance [J]
+  // Changes of these if a border is shifted by the resolution of its time [J].
+  std::array<double, 4> work_resolution{};
+  double energy_resolution = 0;
+  double residual() const;  // ΔE minus all works: residual of the balance [J]
   std::optional<double> efficiency() const { return efficiency_of(work[0], work[1], work[3], energy); }
 };
 
@@ -52,8 +55,8 @@ std::vector<WorkPeriod> work_periods(const Model& model, const Periods& periods,
                                      const WholeRun& whole,
                                      const std::function<std::optional<std::array<double, 4>>(double t)>& works_at);
 
-// "work_of_run_up.driving" … "work_of_run_up.energy": their errors are reported, not judged, as borders may differ
-// between runs.
+// "work_of_run_up.driving" … "work_of_run_up.energy": their errors, with those of the end of run-up, are reported, not
+// judged, as borders may differ between runs.
 void report_works(const Model& model, const std::vector<WorkPeriod>& periods, FigureReporter& report);
 
 }  // namespace kurbel

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <tuple>
+
+#include "studies/run/measured_errors.h"
 
 namespace kurbel {
 namespace {
@@ -55,7 +56,7 @@ EventMatch match_events(const std::vector<Event>& coarse, const std::vector<Even
   return match;
 }
 
-void add_event_errors(const std::vector<Event>& events, const std::vector<Event>& witness, double weight,
+void add_event_errors(const std::vector<Event>& events, const std::vector<Event>& witness, double weight, double hidden,
                       std::vector<std::optional<double>>& errors) {
   const bool first = errors.empty();
   if (first) errors.resize(events.size());
@@ -65,8 +66,8 @@ void add_event_errors(const std::vector<Event>& events, const std::vector<Event>
     if (!match.error[k] || (!first && !error)) {
       error.reset();
     } else {
-      const double rounding = 8 * std::numeric_limits<double>::epsilon() * events[k].t;
-      error = std::max({error.value_or(0), weight * *match.error[k], rounding});
+      const double apart = weight * *match.error[k], least = rounding_of_a_run * events[k].t;
+      error = std::max({error.value_or(0), apart > least ? apart + hidden : apart, least});
     }
   }
 }

@@ -18,9 +18,10 @@ struct EventMatch {
 // are matched in order; otherwise (one more contact change, for example) by mutually nearest times.
 EventMatch match_events(const std::vector<Event>& coarse, const std::vector<Event>& fine);
 
-// Raises the errors of a run's event times [s] to `weight` times the difference to a witness, and at least to
-// rounding; empty if any witness has no such event. `errors` is empty before the first witness.
-void add_event_errors(const std::vector<Event>& events, const std::vector<Event>& witness, double weight,
+// Raises the errors of a run's event times [s] to `weight` times the difference to a witness, with what it may hide by
+// chance if they differ by more than rounding, and at least to that; empty if any witness has no such event. `errors` is
+// empty before the first witness.
+void add_event_errors(const std::vector<Event>& events, const std::vector<Event>& witness, double weight, double hidden,
                       std::vector<std::optional<double>>& errors);
 
 }  // namespace kurbel

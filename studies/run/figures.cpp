@@ -13,6 +13,7 @@
 #include "studies/duty/motor_figures.h"
 #include "studies/duty/stopping.h"
 #include "studies/limits/ratings.h"
+#include "studies/run/measured_errors.h"
 #include "studies/run/simulate.h"
 
 namespace kurbel {
@@ -212,7 +213,9 @@ class RunFigures {
     report_(quantities::stopping_time, link(), [&] {
       return Found{stopping->time, model_.scene.run.until, stopping->at};
     });
-    report_(quantities::stopping_angle, link(), [&] { return Found{stopping->angle, 1, stopping->at}; });
+    report_(quantities::stopping_angle, link(), [&] {
+      return Found{stopping->angle, 1, stopping->at, false, rounding_of_a_run * stopping->largest_angle};
+    });
   }
   // An undriven machine repeats its cycles, too, unless it loses energy: compares with the two before it.
   bool comes_again(const CycleRecord& last) const {
@@ -246,11 +249,14 @@ class RunFigures {
         return Found{last_->fluctuation(), 1, last_->end};
       });
     report_(quantities::mid_speed, link(), [&] { return Found{last_->mid_speed(), model_.speed_scale, last_->end}; });
+    // A difference of times is as exact as they are.
+    const double time = last_ ? last_->end - last_->begin : 0, off = last_ ? rounding_of_a_run * last_->end : 0;
     report_(quantities::mean_speed, link(), [&] {
-      return Found{last_->mean_speed(model_.cycle), model_.speed_scale, last_->end};
+      const double mean = last_->mean_speed(model_.cycle);
+      return Found{mean, model_.speed_scale, last_->end, false, std::abs(mean) * off / time};
     });
     report_(quantities::cycle_time, link(), [&] {
-      return Found{last_->end - last_->begin, 2 * M_PI / model_.speed_scale, last_->end};
+      return Found{time, 2 * M_PI / model_.speed_scale, last_->end, false, off};
     });
     for (const Account kind : {Account::driving, Account::useful, Account::harmful})
       report_(work_per_cycle_of(kind), "", [&] {

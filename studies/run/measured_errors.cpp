@@ -5,15 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "studies/findings/figure_changes.h"
 
 namespace kurbel {
 namespace {
 
-constexpr double share = 0.05;                                           // of the median, in every figure's error
-constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();  // of a figure's size and scale
+constexpr double share = 0.05;  // of the median, in every figure's error
 
 const Figure* find(const std::vector<Figure>& figures, const Figure& like, std::size_t place) {
   if (place < figures.size() && figures[place].name == like.name) return &figures[place];
@@ -31,8 +29,9 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-double measure_errors(std::vector<Figure>& figures, const std::vector<Witness>& witnesses) {
+MeasuredErrors measure_errors(std::vector<Figure>& figures, const std::vector<Witness>& witnesses) {
   std::vector<double> in_scale;
+  double latest = 0;
   for (std::size_t k = 0; k < figures.size(); ++k) {
     Figure& figure = figures[k];
     figure.error.reset();
@@ -42,21 +41,27 @@ double measure_errors(std::vector<Figure>& figures, const std::vector<Witness>& 
       if (!other) continue;
       figure.error = std::max(figure.error.value_or(0), witness.weight * apart(figure, *other));
       if (figure.at && other->at)
-        figure.at_error = std::max(figure.at_error.value_or(rounding * std::abs(*figure.at)),
+        figure.at_error = std::max(figure.at_error.value_or(rounding_of_a_run * std::abs(*figure.at)),
                                    witness.weight * std::abs(*figure.at - *other->at));
     }
     if (figure.error && figure.scale > 0) in_scale.push_back(*figure.error / figure.scale);
+    if (figure.at) latest = std::max(latest, std::abs(*figure.at));
   }
   const double typical = median(in_scale);
-  double worst = 0;
+  MeasuredErrors errors{.hidden = share * typical};
   for (Figure& figure : figures) {
+    // A smooth top moves by the root of its value's error; further away it is another one, of several that are equal.
+    if (figure.at_error && *figure.at_error > std::sqrt(typical + rounding_of_a_run) * latest)
+      figure.at_error = latest;
+    else if (figure.at_error && *figure.at_error > rounding_of_a_run * std::abs(*figure.at))
+      *figure.at_error += errors.hidden * latest;
     if (!figure.error) continue;
     if (!figure.exact)
-      *figure.error += share * typical * figure.scale + rounding * (std::abs(figure.value) + figure.scale);
-    if (figure.scale > 0) worst = std::max(worst, *figure.error / figure.scale);
+      *figure.error += errors.hidden * figure.scale + rounding_of_a_run * (std::abs(figure.value) + figure.scale);
+    if (figure.scale > 0) errors.largest = std::max(errors.largest, *figure.error / figure.scale);
     *figure.error += figure.resolution;
   }
-  return worst;
+  return errors;
 }
 
 double add_differences(std::vector<Figure>& figures, const std::vector<Figure>& finer) {

@@ -1,6 +1,7 @@
 // measured_errors.h — errors of a run's figures, measured by other runs of the same machine.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 
 namespace kurbel {
 
+// Of a result's size: results are sums of rounded numbers.
+inline constexpr double rounding_of_a_run = 8 * std::numeric_limits<double>::epsilon();
+
 // Figures of another run. Their differences are weighted: 1 for a run coarser than the one assessed, so that the
 // difference is the coarser one's error; 2 for one of equal accuracy, as the difference then contains two similar
 // errors, either of which may be the larger.
@@ -18,13 +22,19 @@ struct Witness {
   double weight = 1;
 };
 
+// Of figures with a scale: the largest error over its scale, and what the differences of any figure may hide by chance.
+struct MeasuredErrors {
+  double largest = 0, hidden = 0;
+};
+
 // Sets the error of every figure that a witness contains, too:
 //     error = max over witnesses weight |value − witness| + share · m · scale + uncertainty of location and sampling
 // with m the median over all figures of the largest difference over its scale: the difference of one figure may
 // vanish by chance, those of all figures do not. Peaks are compared by magnitude, since of two equal ones of opposite
-// sign either may be the larger. For figures exact by construction only differences count. Returns the largest error
-// over its scale, of figures with a scale.
-double measure_errors(std::vector<Figure>& figures, const std::vector<Witness>& witnesses);
+// sign either may be the larger. For figures exact by construction only differences count. A figure's time has the same
+// error, with the latest of all times as its scale; a time that all runs share to rounding has no other part, and one of
+// several equal extremes may be any time.
+MeasuredErrors measure_errors(std::vector<Figure>& figures, const std::vector<Witness>& witnesses);
 
 // Adds the discretisation error of shafts, the differences to a machine with finer shafts, to the known errors of
 // integration. Returns the largest over its scale.

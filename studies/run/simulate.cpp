@@ -129,7 +129,7 @@ class Simulation {
   // Largest error over its scale in the figures, by these runs.
   double error_by(const OneRun* coarse, const OneRun* elsewhere) const {
     std::vector<Figure> figures = fine_->figures;
-    return measure_errors(figures, witnesses(coarse, elsewhere));
+    return measure_errors(figures, witnesses(coarse, elsewhere)).largest;
   }
   // The next tolerance of a sequence; the last step may be shorter, or there is none.
   static double tighter(double tolerance) { return std::max(tolerance / tolerance_step, least_tolerance); }
@@ -168,6 +168,10 @@ class Simulation {
       return end_elsewhere("Simbody, whose tables should confirm the figures,", why.what());
     }
     std::unique_ptr<OneRun> other = one_run(tolerance, true);
+    if (settings_.method == "esdirk5" && !stiff_ && other->outcome.statistics.method != name_of(Method::verner_65)) {
+      stiff_ = true;  // "auto" turned to the implicit method that it should confirm
+      other = one_run(tolerance, true);
+    }
     if (!other->outcome.complete)
       return end_elsewhere("the run by another method that should confirm the figures", other->outcome.diagnosis);
     // At the end of the sequence no finer run shows the error of its last run, and the one before it shows only its
@@ -211,17 +215,18 @@ class Simulation {
       result_.notes.push_back(unconfirmed_ + "; figures are without errors");
       return;
     }
-    const double of_figures = measure_errors(fine_->figures, witnesses(coarse_.get(), elsewhere_.get())),
-                 of_energy = fine_->energy->largest(settings_.accuracy);
+    const auto [of_figures, hidden] = measure_errors(fine_->figures, witnesses(coarse_.get(), elsewhere_.get()));
+    const double of_energy = fine_->energy->largest(settings_.accuracy);
     measure_errors(fine_->last_state, witnesses(coarse_.get(), elsewhere_.get(), &OneRun::last_state));
     const double tables = left_by_tables(model_->scene);
     for (std::vector<Figure>* figures : {&fine_->figures, &fine_->last_state})
       for (Figure& f : *figures)
         if (f.error && !f.exact) *f.error += tables * std::max(std::abs(f.value), f.scale);
-    if (coarse_)
-      add_event_errors(fine_->outcome.events, coarse_->outcome.events, weight_of_coarse_, result_.event_errors);
-    if (elsewhere_)
-      add_event_errors(fine_->outcome.events, elsewhere_->outcome.events, weight_of_elsewhere, result_.event_errors);
+    for (const auto& [witness, weight] :
+         {std::pair(coarse_.get(), weight_of_coarse_), std::pair(elsewhere_.get(), weight_of_elsewhere)})
+      if (witness)
+        add_event_errors(fine_->outcome.events, witness->outcome.events, weight, hidden * settings_.until,
+                         result_.event_errors);
     for (std::size_t k = 0; k < result_.event_errors.size(); ++k)
       if (std::optional<double>& error = result_.event_errors[k]) *error += tables * fine_->outcome.events[k].t;
     result_.measured_accuracy = std::max(of_figures, of_energy);
@@ -324,11 +329,12 @@ class Simulation {
   // Another method of similar cost for the same figures: another order, another family, or time instead of angle.
   std::string confirming_method() const {
     const std::string& asked = settings_.method;
-    if (asked == "auto") return fine_->outcome.statistics.method == name_of(Method::work_equation) ? "dop853" : "auto";
     if (asked == "dop853") return "verner6";
-    if (asked == "esdirk5") return "esdirk";  // "auto" may take esdirk5 itself where the machine is stiff
-    if (asked == "esdirk" || asked == "esdirk3" || asked == "bdf") return "auto";
-    return "dop853";  // dopri5, work, verner6, fehlberg8, adams
+    if (asked == "esdirk5" && stiff_) return "esdirk";
+    if (asked == "dopri5" || asked == "verner6" || asked == "fehlberg8" || asked == "adams") return "dop853";
+    // Verner's method, and esdirk5 where the machine is stiff: the work equation has the steps of dop853 near rest and
+    // between edges, implicit methods interpolate alike within their steps.
+    return "auto";
   }
 
   // The same machine with its mechanisms extracted anew, if they use tables and are described by the scene.
@@ -411,6 +417,7 @@ class Simulation {
   std::unique_ptr<OneRun> fine_, coarse_, elsewhere_;     // the run whose figures count, and its witnesses
   double weight_of_coarse_ = 1;                           // measured_errors.h says why
   bool ladder_failed_ = false, elsewhere_ended_ = false;  // a tighter run of theirs failed
+  bool stiff_ = false;                                    // "auto" takes implicit steps
   std::string unconfirmed_;                               // why that was
   Result result_;
 };

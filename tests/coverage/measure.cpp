@@ -1,6 +1,8 @@
 // measure.cpp — the measurement, the measurement it replaced, and the judgement of both.
 #include "tests/coverage/measure.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -144,11 +146,12 @@ std::vector<ReportedTime> times_of(const Result& result) {
   constexpr double at_the_end = 1 - 1e-12;  // of the run: nothing was located there
   for (const Figure& f : result.figures)
     if (f.at && *f.at<at_the_end * result.until&& * f.at> 0) times.push_back({"at." + f.name, *f.at, f.at_error});
-  std::map<std::string, int> seen;
+  const auto like = [](const Event& e) { return "event." + e.component + "." + e.what; };
+  std::map<std::string, int> seen, all;
+  for (const Event& e : result.events) ++all[like(e)];
   for (std::size_t i = 0; i < result.events.size(); ++i) {
-    const Event& e = result.events[i];
-    const std::string like = "event." + e.component + "." + e.what;
-    times.push_back({like + "#" + std::to_string(seen[like]++), e.t,
+    const std::string kind = like(result.events[i]);
+    times.push_back({fmt::format("{}#{}/{}", kind, seen[kind]++, all[kind]), result.events[i].t,
                      i < result.event_errors.size() ? result.event_errors[i] : std::nullopt});
   }
   return times;

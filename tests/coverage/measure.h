@@ -62,7 +62,8 @@ struct MeasureSettings {
 MeasuredVariant measure(const Variant& variant, const MeasureSettings& settings);
 
 // Times that a result tells: of figures that are located within the run ("at.peak_torque.shaft"), and of its events
-// ("event.clutch.locks#0", the first of its like), with their errors where they were measured.
+// ("event.clutch.locks#0/3", the first of three of its like: where another run has two, nothing says which of them it is),
+// with their errors where they were measured.
 struct ReportedTime {
   std::string name;
   double value = 0;

@@ -61,6 +61,21 @@ TEST(Coverage, MeasuredVariantsReadBackAsWritten) {
   EXPECT_EQ(read[0].figures[1].verdict, Verdict::missed);
 }
 
+// One more event at the start must not shift the others.
+TEST(Coverage, EventsOfRunsWithAnotherNumberOfThemAreNotCompared) {
+  Result two, three;
+  two.events = {{1.0, "clutch", "locks"}, {2.0, "clutch", "slips"}, {3.0, "clutch", "locks"}};
+  three.events = {
+      {0.0, "clutch", "locks"}, {1.0, "clutch", "locks"}, {2.0, "clutch", "slips"}, {3.0, "clutch", "locks"}};
+  std::map<std::string, double> times;
+  for (const ReportedTime& t : times_of(three)) times[t.name] = t.value;
+  for (const ReportedTime& t : times_of(two))
+    if (const auto other = times.find(t.name); other != times.end()) {
+      EXPECT_EQ(other->second, t.value) << t.name;
+    }
+  EXPECT_EQ(times.count("event.clutch.slips#0/1"), 1u);
+}
+
 // A variant of every example scene, over a twelfth of a campaign's time. Of its 2640 variants the campaign finds more
 // than 99.5 % covered.
 TEST(Coverage, StatedErrorsCoverTrueOnesInVariantsOfAllScenes) {

@@ -52,6 +52,21 @@ TEST(Stopping, BeginsWithTheFirstThatStopsAfterTheLastThatDrives) {
   EXPECT_NEAR(figure(r, "stopping_angle.motor"), 0.5 * (30 + slowed) / 2 + 0.5 * slowed * rest, 1e-7);
 }
 
+// A difference of angles is as exact as they are: a hundred turns before the signal cost two digits.
+TEST(Stopping, HasTheRoundingOfItsAngles) {
+  const auto error = [](double signal) {
+    Scene scene = test::scene_from(machine(fmt::format(R"(
+    {{ at = "{0} s", set = ["motor", "load"], to = 0 }}, {{ at = "{0} s", set = "brake" }})",
+                                                       signal)));
+    scene.run.until = signal + 3;
+    const Result r = run(scene);
+    const Figure& angle = *r.find("stopping_angle.motor");
+    EXPECT_NEAR(angle.value, 36, *angle.error);
+    return *angle.error;
+  };
+  EXPECT_GT(error(100), 4e-13);  // an ulp of 3000 rad
+}
+
 // Nothing tells it to stop: a load that is too heavy does.
 TEST(Stopping, IsNoneWithoutASignal) {
   const Result r =
