@@ -100,9 +100,10 @@ inline constexpr PageWord of_pages[] = {
      "cycle",
      of_all,
      "accounts of the work: of drives, of loads, of friction and losses, of weights; open: residual of the balance"},
-    {"states; steps; rejected steps; evaluations of the equations; right-hand sides; Jacobians; runs; events; "
+    {"states; steps; rejected steps; evaluations; evaluations of the equations; right-hand sides; Jacobians; runs; "
+     "events; "
      "nonzeros; guards",
-     "run, compare, effects, accuracy",
+     "run, compare, effects, advise, accuracy",
      "counts of a run: its state variables, its steps, how often its equations and their derivatives were evaluated, "
      "its events; nonzeros of the Jacobian and switching functions of the model"},
     {"method; accuracy measured; requested accuracy; tolerance; tolerance * %", "run, compare, accuracy, advise",

@@ -40,7 +40,7 @@ Rows rows_of_figures(const Result& r, std::vector<Figure> figures, bool on_termi
   // The page's heading contains the unit of time.
   if (on_terminal) return table.not_on_page().only_for_people("at", at_time);
   return table.not_on_terminal().only_for_people("at [s]", [](F f) {
-    return f.at ? with_error({*f.at, f.at_error}, "") : std::string();
+    return has_known_time(f) ? with_error({*f.at, f.at_error}, "") : std::string();
   });
 }
 

@@ -35,8 +35,10 @@ std::string reported(const EnergyBalance& energy);
 
 // "peak_torque.main_coupling" → "peak torque, main_coupling"
 std::string in_words(const Figure& figure);
-std::string sure(const Figure& figure);            // value, error, unit in SI
-SpeedUnit speed_unit_of(const Result& result);     // of its scene
+std::string sure(const Figure& figure);         // value, error, unit in SI
+SpeedUnit speed_unit_of(const Result& result);  // of its scene
+// Not known where its error exceeds it: of several equal extremes, each run may find another one.
+bool has_known_time(const Figure& figure);
 std::string at_time(const Figure& figure);         // "at 1.23 s"; empty: at none
 const Figure* largest_peak(const Result& result);  // of torque in any coupling
 const Figure* first_of(const Result& result, const QuantityKind& what);

@@ -61,7 +61,8 @@ std::string in_words(const Figure& f) {
 
 std::string sure(const Figure& f) { return with_error(f, f.unit); }
 SpeedUnit speed_unit_of(const Result& r) { return r.model ? r.model->scene.speed_unit : SpeedUnit{}; }
-std::string at_time(const Figure& f) { return f.at ? "at " + with_error({*f.at, f.at_error}, "s") : ""; }
+bool has_known_time(const Figure& f) { return f.at && f.at_error.value_or(0) <= std::abs(*f.at); }
+std::string at_time(const Figure& f) { return has_known_time(f) ? "at " + with_error({*f.at, f.at_error}, "s") : ""; }
 
 const Figure* largest_peak(const Result& r) {
   const Figure* peak = nullptr;
