@@ -174,6 +174,8 @@ class Loop {
   bool advance() {
     look_at_time();
     const double until = memory_.shortened > 0 ? std::min(limit(), stepper_->t() + memory_.shortened) : limit();
+    if (!(until > stepper_->t()))
+      throw std::runtime_error("the motion is too fast: a quarter turn takes less than the rounding of the time");
     try {
       stepper_->step(until);
     } catch (const StepFailure& failure) {

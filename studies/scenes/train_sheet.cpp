@@ -384,6 +384,10 @@ class Sheet {
       return;
     }
     const auto [driving, driven] = teeth_of(b.ratio / a.ratio);
+    if (!(driving >= 1 && driven >= 1))
+      refuse(joint.at,
+             fmt::format("the speeds of {} and {} have the ratio {:.3g}: no two wheels of up to {:.0f} teeth have it",
+                         in_quotes(a.said), in_quotes(b.said), b.ratio / a.ratio, most_teeth));
     tables_ += fmt::format(
         "\n[{}]  # its teeth stand for the speeds of the sheet, {:g} to {:g}\nkind = \"gearbox\"\n"
         "stages = [{{ teeth = [{:.0f}, {:.0f}] }}]\n",

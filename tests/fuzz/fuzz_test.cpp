@@ -69,6 +69,14 @@ TEST(Fuzz, InputsThatCrashedAreAnswered) {
       EXPECT_EQ(judge(seed.text), "") << seed.name;
 }
 
+// By their numbers: a checkpoint at 9.5e18 rad/s, and a gear between speeds whose ratio no two wheels have.
+TEST(Fuzz, InputsThatWereFaultsAreAnswered) {
+  for (const auto& [name, number] : {std::pair("json", 1795837502007077u), std::pair("sheet", 1795837442268982u)}) {
+    const Target& target = *target_named(name);
+    EXPECT_EQ(target.judge(input_of(target, number)), "") << name;
+  }
+}
+
 // Each list of each example emptied, and each list key of each kind given as []: once by key and kind.
 class EmptyLists {
  public:
