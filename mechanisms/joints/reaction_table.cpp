@@ -171,10 +171,11 @@ void put_signs(const Sampler& sampler, const CrankCycle& cycle, std::vector<Rub>
 
 }  // namespace
 
-std::string refusal_of_joint_friction(const CrankCycle& cycle) {
-  if (cycle.change_points().empty()) return {};
-  return "it passes change points, beside which reactions have no bound: where an arm is as short as the radii of the "
-         "friction circles, friction jams the crank. Let other links carry there, as a second rod on cranks 90° apart";
+std::string refusal_of_joint_friction(const MechanismData& data, const CrankCycle& cycle) {
+  if (const std::string why = data.undetermined(); !why.empty()) return why;
+  if (!cycle.change_points().empty())
+    return "it passes change points, where reactions have no bound and friction by them jams the crank";
+  return {};
 }
 
 std::shared_ptr<const JointFriction> tabulate_joint_friction(const MechanismData& data,
@@ -183,7 +184,7 @@ std::shared_ptr<const JointFriction> tabulate_joint_friction(const MechanismData
                                                              const std::vector<ActsWithin>& within,
                                                              Extraction extraction) {
   CrankCycle cycle(data);
-  if (const std::string why = refusal_of_joint_friction(cycle); !why.empty()) throw std::invalid_argument(why);
+  if (const std::string why = refusal_of_joint_friction(data, cycle); !why.empty()) throw std::invalid_argument(why);
   Sampler sampler(data, rubbing, off, within);
   std::vector<JointFriction::Turning> turnings;
   std::vector<Rub> joints = sampler.joints;

@@ -34,7 +34,8 @@ struct ActsWithin {
 // Tables of the reactions of the joints in `rubbing`, by Newton–Euler in long double (newton_euler.h), with the error
 // table_tolerance relative to the maximum of each coefficient, on a crank's arc to its own value. Joints without friction
 // are omitted; a name applies to all joints with it. Throws std::invalid_argument for unknown joint names, for values
-// outside their domain, for a linkage with unbounded reactions (change points), for too many joints or forces within.
+// outside their domain, for a linkage with undetermined or unbounded reactions (change points), for too many joints or
+// forces within.
 std::shared_ptr<const JointFriction> tabulate_joint_friction(const MechanismData& data,
                                                              const std::vector<RubbingJoint>& rubbing,
                                                              const OffThePin& off,
@@ -42,6 +43,6 @@ std::shared_ptr<const JointFriction> tabulate_joint_friction(const MechanismData
                                                              Extraction extraction);
 
 // The reason why friction by reactions cannot be computed; empty: it can.
-std::string refusal_of_joint_friction(const CrankCycle& cycle);
+std::string refusal_of_joint_friction(const MechanismData& data, const CrankCycle& cycle);
 
 }  // namespace kurbel

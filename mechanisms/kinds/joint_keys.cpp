@@ -171,7 +171,7 @@ MechanismJoints joints_of(const MechanismData& data, const std::vector<Reading<R
   std::vector<std::string> list;
   for (const PlanarLinkage::Joint& j : linkage.joints)
     if (names.insert(j.name).second) list.emplace_back(j.name);
-  const std::string why = refusal_of_joint_friction(CrankCycle(data));
+  const std::string why = refusal_of_joint_friction(data, CrankCycle(data));
   std::vector<RubbingJoint> rubbing;
   bool valid = true;
   for (const Reading<RubbingJoint>& joint : joints) {
@@ -186,7 +186,7 @@ MechanismJoints joints_of(const MechanismData& data, const std::vector<Reading<R
       if (to.name == j.name) valid = fits(joint, j.slides) && valid;
     if (!why.empty())
       valid = joint.refuse(
-          fmt::format("friction of its joints cannot be found: {}, leave the joints out, or change the lengths", why));
+          fmt::format("friction of its joints cannot be found: {}; leave the joints out, or change the lengths", why));
     rubbing.push_back(std::move(to));
   }
   if (!valid) return {};

@@ -234,12 +234,12 @@ double drawn_at(const LinkageData& data) {
   return !sine || std::fabs(sine->value()) > 0.1L ? at : l.arc() ? l.arc()->middle : at + beside;
 }
 
-std::string shared_reactions_of(const LinkageData& data) {
+std::string undetermined_reactions(const LinkageData& data) {
   for (const AssurGroup& group : data.linkage->structure().groups)
     if (group.superfluous > 0)
       return fmt::format(
-          "the links {} have {}: reactions are those of joints of equal stiffness without play; play and lengths a "
-          "little off share them out otherwise",
+          "reactions are not assessed: the links {} have {}, so that play "
+          "and elasticity share the forces out",
           links_of(group, data.linkage->sketch()), superfluous_of(group));
   return {};
 }

@@ -125,7 +125,7 @@ std::string locks_of(const LinkageData& data);
 int turns_of(const LinkageData& data);
 // φ of the sketch, of one in a change point beside it [rad]
 double drawn_at(const LinkageData& data);
-// By what assumption reactions are found; empty: they need none.
-std::string shared_reactions_of(const LinkageData& data);
+// The reason why reactions are undetermined; empty: they are determined.
+std::string undetermined_reactions(const LinkageData& data);
 
 }  // namespace kurbel

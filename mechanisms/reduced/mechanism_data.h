@@ -13,7 +13,7 @@
 //     std::string locks_of(const D&);                           what happens at their ends, in words
 //     int turns_of(const D&);                                   of the crank until the links come back without change points
 //     double drawn_at(const D&);                                φ of a position in which its lengths are exact
-//     std::string shared_reactions_of(const D&);                  by what assumption reactions are found; empty: by none
+//     std::string undetermined_reactions(const D&);             why reactions are undetermined; empty: they are not
 // and, if its joints are unknown or its output is not on one of its bodies, instead of the general Simbody model
 //     std::unique_ptr<MechanismBodies> own_bodies(const D&);
 #pragma once
@@ -61,7 +61,7 @@ class MechanismData {
     if constexpr (requires { locks_of(*d); }) held.locks = locks_of(*d);
     if constexpr (requires { turns_of(*d); }) held.turns = turns_of(*d);
     if constexpr (requires { drawn_at(*d); }) held.drawn_at = drawn_at(*d);
-    if constexpr (requires { shared_reactions_of(*d); }) held.shared_reactions = shared_reactions_of(*d);
+    if constexpr (requires { undetermined_reactions(*d); }) held.undetermined = undetermined_reactions(*d);
     held_ = std::make_shared<const Held>(std::move(held));
   }
 
@@ -82,7 +82,7 @@ class MechanismData {
   double gravity() const { return held_->gravity; }
   const std::optional<CrankArc>& arc() const { return held_->arc; }  // empty: the crank turns
   const std::string& locks() const { return held_->locks; }          // empty: the text of the named mechanisms
-  const std::string& shared_reactions() const { return held_->shared_reactions; }
+  const std::string& undetermined() const { return held_->undetermined; }
 
   bool joints_are_known() const { return !held_->own_bodies; }
   // Input of the Simbody model. Throws std::invalid_argument with the first fault of the data.
@@ -102,7 +102,7 @@ class MechanismData {
     std::function<std::vector<PlanePoint>(double)> places;
     std::function<std::unique_ptr<MechanismBodies>()> own_bodies;
     std::optional<CrankArc> arc;
-    std::string locks, shared_reactions;
+    std::string locks, undetermined;
     int turns = 1;
     std::optional<double> drawn_at;
   };

@@ -18,9 +18,9 @@ using Real = long double;
 constexpr int most = 3 * PlanarLinkage::most_bodies;
 enum Case : int { speed_case, acceleration_case, weight_case, load_case, applied_case, cases };
 using CaseMatrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, most, most>;
+using Columns = Eigen::Matrix<Real, Eigen::Dynamic, cases, Eigen::RowMajor, most, cases>;
 using RightSides = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using Columns = Eigen::Matrix<Real, Eigen::Dynamic, cases, Eigen::RowMajor>;
-using CaseColumn = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+using CaseColumn = Eigen::Matrix<Real, Eigen::Dynamic, 1, 0, most, 1>;
 
 struct Vector {
   Real x, y;
@@ -88,42 +88,24 @@ class Equations {
   Equations(const PlanarLinkage& l, const std::vector<AppliedForce>& applied)
       : l_(l),
         n_(3 * l.body_count),
-        unknowns_(2 * l.joint_count + 1),
         length_(std::hypot(l.joints[1].at.x.value(), l.joints[1].at.y.value())),
-        matrix_(RightSides::Zero(n_, unknowns_)),
+        matrix_(CaseMatrix::Zero(n_, n_)),
         right_(Columns::Zero(n_, cases)) {
     for (int k = 0; k < l.joint_count; ++k) put(k);
-    matrix_(2, unknowns_ - 1) = 1;  // the balancing torque, on the crank
+    matrix_(2, n_ - 1) = 1;  // the balancing torque, on the crank
     for (int i = 0; i < l.body_count; ++i) load(i);
     put(applied, applied_case, right_);
   }
-  // Forces [N] and moments over length() [N]; where closures are redundant, those of least norm: x = Aᵀ(A Aᵀ)⁻¹ b.
+  // Forces [N] and moments over length() [N].
   Columns solve() const { return solve(right_); }
   template <class Right>
   Right solve(const Right& right) const {
-    const bool redundant = unknowns_ > n_;
-    CaseMatrix square(n_, n_);
+    const Elimination factors(matrix_);
+    Right x = factors.solve(right), left = right;
     for (int i = 0; i < n_; ++i)
-      for (int k = 0; k < n_; ++k) {
-        Real sum = redundant ? 0 : matrix_(i, k);
-        for (int j = 0; j < unknowns_ && redundant; ++j) sum += matrix_(i, j) * matrix_(k, j);
-        square(i, k) = sum;
-      }
-    const Elimination factors(square);
-    const auto solution = [&](const Right& b) -> Right {
-      const Right y = factors.solve(b);
-      if (!redundant) return y;
-      Right x = Right::Zero(unknowns_, b.cols());
-      for (int i = 0; i < n_; ++i)
-        for (int j = 0; j < unknowns_; ++j)
-          if (matrix_(i, j) != 0) x.row(j) += matrix_(i, j) * y.row(i);
-      return x;
-    };
-    Right x = solution(right), left = right;
-    for (int i = 0; i < n_; ++i)
-      for (int j = 0; j < unknowns_; ++j)
+      for (int j = 0; j < n_; ++j)
         if (matrix_(i, j) != 0) left.row(i) -= matrix_(i, j) * x.row(j);
-    return x + solution(left);
+    return x + factors.solve(left);
   }
   // The four cases, behind them each of what else is applied, and a unit of each friction load.
   RightSides with_units(std::span<const FrictionPlace> friction,
@@ -149,7 +131,7 @@ class Equations {
     for (int i = 0; i < n_; ++i) {
       Real left = 0;
       const auto add = [&](Real term) { left += term, largest = std::max(largest, std::fabs(term)); };
-      for (int k = 0; k < unknowns_; ++k) add(matrix_(i, k) * solution(k));
+      for (int k = 0; k < n_; ++k) add(matrix_(i, k) * solution(k));
       for (int k = 0; k < cases; ++k) add(-right_(i, k) * mixture(k));
       most_left = std::max(most_left, std::fabs(left));
     }
@@ -211,9 +193,9 @@ class Equations {
   }
 
   const PlanarLinkage& l_;
-  int n_, unknowns_;
+  int n_;
   Real length_;
-  RightSides matrix_;
+  CaseMatrix matrix_;
   Columns right_;
 };
 
@@ -302,16 +284,17 @@ void add_reactions(const PlanarLinkage& l, LinkageForces& f) {
     }
     f.joints.push_back(std::move(out));
   }
-  f.torque = rounded(x(x.size() - 1) * equations.length());
+  f.torque = rounded(x(3 * l.body_count - 1) * equations.length());
   f.residual = equations.residual(x, mixture);
 }
 
 }  // namespace
 
 LinkageForces forces_in(const PlanarLinkage& l, const LinkageState& state) {
-  if (2 * l.joint_count + 1 < 3 * l.body_count) throw std::logic_error("newton_euler: not one degree of freedom");
+  const int superfluous = 2 * l.joint_count + 1 - 3 * l.body_count;
+  if (superfluous < 0) throw std::logic_error("newton_euler: not one degree of freedom");
   LinkageForces f = motion_in(l, state);
-  add_reactions(l, f);
+  if (superfluous == 0) add_reactions(l, f);
   const Real w = state.omega;
   const Real elevation = l.elevation, up_x = std::sin(elevation), up_y = std::cos(elevation);
   for (int i = 0; i < l.body_count; ++i) {
@@ -326,6 +309,7 @@ LinkageForces forces_in(const PlanarLinkage& l, const LinkageState& state) {
     const Real vx = b.com.x.slope() - turning * (a.at.y - com.y), vy = b.com.y.slope() + turning * (a.at.x - com.x);
     f.load_power += rounded(w * (a.force.x * vx + a.force.y * vy + a.moment * turning));
   }
+  if (superfluous > 0) f.torque = (f.kinetic_rate - f.weight_power - f.load_power) / state.omega;
   return f;
 }
 

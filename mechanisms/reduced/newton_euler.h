@@ -8,8 +8,7 @@
 //     Σ R + W + F = m a_S,     Σ (P − S) × R + Σ M = I ε_i
 // 3 equations per link; unknowns: two for each joint (R_x, R_y of a pin; normal force N and moment of a slide) and the
 // balancing torque on the crank. Solved in long double for five cases: ω² = 1, ε = 1, weights, unit load, other forces
-// on links; every reaction is linear in these. Where closures are redundant, the reactions with the least sum of squares:
-// those of joints of equal stiffness without play, of a slide's tilting with the crank as its arm (Castigliano).
+// on links; every reaction is linear in these.
 #pragma once
 
 #include <cmath>
@@ -87,7 +86,7 @@ struct LinkageForces {
   LinkageState state;
   double output = 0, output_velocity = 0, output_acceleration = 0;  // [m] or [rad]
   std::vector<LinkForces> links;                                    // the crank first, the output last
-  std::vector<JointForces> joints;
+  std::vector<JointForces> joints;                                  // empty: their reactions are undetermined
   double torque = 0;          // of the shaft on the crank, positive counter-clockwise [N·m]
   Force2 shaking_force;       // of all inertia forces, on the frame [N]
   double shaking_moment = 0;  // of all inertia forces and couples about the crank's axis, on the frame [N·m]
@@ -101,6 +100,7 @@ struct LinkageForces {
   double friction_loss(std::string_view joint) const;  // of the joints with this name [W]
 };
 
+// Of a linkage with redundant closures no joints, as their reactions are undetermined, and the torque by the powers (ω ≠ 0).
 // Throws std::runtime_error with the numbers if the equations are singular: in a position in which the crank cannot move
 // the mechanism.
 LinkageForces forces_in(const PlanarLinkage& linkage, const LinkageState& state);

@@ -127,8 +127,8 @@ class Study {
     out_.rocks = data_.rocks();
     out_.joints = *asked.network.data.find<MechanismJoints>(asked.name);
     out_.friction = effects_.joint_friction && asked.mechanism().joints;
-    if (const std::string& how = data_.shared_reactions(); !how.empty() && !out_.friction)
-      out_.notes.push_back(fmt::format("{}: {}", asked.name, how));
+    if (const std::string why = data_.undetermined(); !why.empty())
+      out_.notes.push_back(fmt::format("{}: {}; the balancing torque is that of the powers", asked.name, why));
     for (const std::string& line : mechanism_words(asked.mechanism())) out_.about.push_back(asked.name + ": " + line);
     statics_.emplace(data_, out_.joints, out_.friction, !effects_.gravity);
     loads_.add_edges(statics_->turnings());

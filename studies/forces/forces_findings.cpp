@@ -41,6 +41,7 @@ std::string begin_conclusion(const Forces& f, const ForceCycle& front) {
   const std::string moving = fmt::format("{} at {}{}", f.mechanism, f.speed_unit.text(front.mean_speed.value, 4),
                                          range > 1e-4 * std::abs(front.mean_speed.value) ? " on average" : "");
   if (f.unbounded.any()) return begin_unbounded(moving, f.unbounded);
+  if (front.reactions.empty()) return moving + ": reactions in its joints are not assessed";
   const Peak& main_bearing = front.reactions.front().peak;
   return fmt::format("{}: the main bearing carries up to {} (at {})", moving, in_words(main_bearing, "N"),
                      at_angle(main_bearing));
@@ -51,12 +52,12 @@ std::string torque_in_words(const ForceCycle& c) {
   return fmt::format("the balancing torque peaks at {} (at {})", in_words(c.torque, "N*m"), at_angle(c.torque));
 }
 
-// The joint with the largest force.
-const NamedPeak& heaviest(const ForceCycle& c) {
-  const NamedPeak* most = &c.reactions.front();
+// The joint with the largest force; null: reactions are not assessed.
+const NamedPeak* heaviest(const ForceCycle& c) {
+  const NamedPeak* most = nullptr;
   for (const NamedPeak& r : c.reactions)
-    if (r.unit == "N" && std::abs(r.peak.value) > std::abs(most->peak.value)) most = &r;
-  return *most;
+    if (!most || (r.unit == "N" && std::abs(r.peak.value) > std::abs(most->peak.value))) most = &r;
+  return most;
 }
 
 // With its error if that is visible.
@@ -64,11 +65,11 @@ std::string efficiency_text(const ForceCycle& c) { return with_error(100 * *c.ef
 
 std::string conclusion_of(const Forces& f) {
   const ForceCycle& c = f.front();
-  const NamedPeak& most = heaviest(c);
+  const NamedPeak* const most = heaviest(c);
   std::string text = begin_conclusion(f, c);
-  if (&most != &c.reactions.front() && !f.unbounded.any() && !f.balancing)
-    text += fmt::format(", the heaviest load of a joint is {} ({}, at {})", in_words(most.peak, "N"), most.name,
-                        at_angle(most.peak));
+  if (most && most != &c.reactions.front() && !f.unbounded.any() && !f.balancing)
+    text += fmt::format(", the heaviest load of a joint is {} ({}, at {})", in_words(most->peak, "N"), most->name,
+                        at_angle(most->peak));
   text += ", " + torque_in_words(c);
   if (!is_nothing(c.shaking_force))
     text += fmt::format(", the shaking force peaks at {}", in_words(c.shaking_force, "N"));
@@ -105,6 +106,7 @@ std::string signs_of(const Forces& f) {
 }
 
 std::string checks_of(const ForceCycle& c) {
+  if (c.reactions.empty()) return "the balancing torque is that of the powers, so that these balance";
   std::string text = fmt::format(
       "power balance closes to {:.1e} of the largest power at every position, the links' equilibrium to {:.1e}",
       c.power_residual, c.equation_residual);
@@ -185,7 +187,7 @@ Rows position_table(const Forces& f, const ForceCycle& c) {
   table.only_for_people("φ [°]", [](P p) { return degrees(p.forces.state.phi); }, {.digits = 5})
       .only_for_people("ω [rad/s]", [](P p) { return p.forces.state.omega; })
       .only_for_people("M [N·m]", [&, or_nothing](P p) { return or_nothing(p.forces.torque, c.torque.value); });
-  const double largest = heaviest(c).peak.value;
+  const double largest = c.reactions.empty() ? c.shaking_force.value : heaviest(c)->peak.value;
   for (std::size_t k = 0; k < c.rows.front().forces.joints.size(); ++k) {
     const JointForces& j = c.rows.front().forces.joints[k];
     table.only_for_people(fmt::format("{} [N]", j.name),
@@ -423,10 +425,11 @@ Findings findings_of(const Forces& f) {
   to.show(torque, torque_formula(f));
   to.draw(reactions, [&f] { return reaction_plots(f); });
   to.show(reactions, Text{.title = "Signs and axes", .body = signs_of(f)});
-  to.show(polar,
-          Text{.title = "",
-               .body = "Tips of the load over a cycle. In the frame it shows where shell and housing are pressed; "
-                       "in axes of a link, where its pin or bore is: that is where an oil hole must not be."});
+  if (!front.reactions.empty())
+    to.show(polar,
+            Text{.title = "",
+                 .body = "Tips of the load over a cycle. In the frame it shows where shell and housing are pressed; in "
+                         "axes of a link, where its pin or bore is: that is where an oil hole must not be."});
   to.draw(polar, [&f] { return polar_plots(f); });
   say_positions(to, positions, f);
   say_work(to, work, f);

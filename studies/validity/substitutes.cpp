@@ -41,9 +41,6 @@ std::vector<std::string> substitutes(const Model& model) {
         if (load.mirrored) notes.push_back(words_of_mirrored(load.name, "motored"));
       if (std::string words = element ? branch_words(*mechanism) : ""; !words.empty())
         notes.push_back(std::move(words));
-      if (element && mechanism->joints && model.effects.joint_friction && !mechanism->data.shared_reactions().empty())
-        notes.push_back(mechanism->name +
-                        ": friction in joints by their reactions: " + mechanism->data.shared_reactions());
       const auto* const drawn = element ? mechanism->data.as<LinkageData>() : nullptr;
       if (drawn && !drawn->linkage->moved_in_words().empty())
         notes.push_back(mechanism->name + ": " + drawn->linkage->moved_in_words());

@@ -337,7 +337,7 @@ TEST(Linkage, AParallelogramWithARedundantRodTurns) {
     EXPECT_NEAR(double(poses[1].turn.sin.value()), 0, 1e-14);
     EXPECT_NEAR(double(poses[3].turn.rate().value()), 1, 1e-14);
   }
-  EXPECT_NE(shared_reactions_of(data).find("1 closure more than they need"), std::string::npos);
+  EXPECT_NE(undetermined_reactions(data).find("not assessed"), std::string::npos);
 }
 
 // Parallel cranks at 0, 0.2 and 0.4 m, the middle bearing by h beside the line of the others.

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <string>
 
-#include "mechanisms/joints/reaction_table.h"
 #include "mechanisms/reduced/mechanism.h"
 #include "mechanisms/reduced/newton_euler.h"
 #include "studies/forces/forces.h"
@@ -79,7 +78,7 @@ TEST(ParallelCranks, TurnAlikeThroughTheirChangePointsHoweverManyARodHolds) {
         expect_parallel(data, closed_inertia(count, 1));
         ASSERT_TRUE(data.linkage->faults().empty());
         EXPECT_EQ(data.linkage->structure().freedom, 3 - count);
-        EXPECT_EQ(shared_reactions_of(data).empty(), count == 2);
+        EXPECT_EQ(undetermined_reactions(data).empty(), count == 2);
         const CrankCycle cycle(data);
         ASSERT_EQ(cycle.change_points().size(), 2u);
         for (const double phi : cycle.change_points()) EXPECT_NEAR(std::sin(phi - slope), 0, 1e-12);
@@ -94,7 +93,7 @@ TEST(ParallelCranks, RodsOneBehindAnotherChangeTogether) {
     ASSERT_TRUE(data.linkage->faults().empty());
     EXPECT_EQ(data.linkage->structure().freedom, 1);
     EXPECT_EQ(CrankCycle(data).change_points().size(), 2u);
-    EXPECT_EQ(shared_reactions_of(data), "");
+    EXPECT_EQ(undetermined_reactions(data), "");
   }
 }
 
@@ -151,8 +150,8 @@ TEST(ParallelCranks, ThatDifferByMoreAreNotTakenAsParallel) {
   EXPECT_EQ(of.data().linkage->moved_in_words(), "");
 }
 
-// Cranks with a second rod on pins 90° ahead.
-SketchOf with_two_rods() {
+// A second rod on cranks 90° ahead: no change point is left.
+TEST(ParallelCranks, ASecondRodAtARightAngleLeavesNoChangePoint) {
   SketchOf of;
   const double x = r * std::cos(0.4), y = r * std::sin(0.4);
   of.point('O', 0, 0)
@@ -166,41 +165,9 @@ SketchOf with_two_rods() {
       .link("right", "AB", 2)
       .link("left", "PQ", 2)
       .link("rear", "CBQ", 1, 0.01);
-  return of.rocks("rear");
-}
-
-TEST(ParallelCranks, ASecondRodAtARightAngleLeavesNoChangePoint) {
-  const LinkageData data = with_two_rods().data();
+  const LinkageData data = of.rocks("rear").data();
   expect_both_extractions(data, 1e-12);
   EXPECT_TRUE(CrankCycle(data).change_points().empty());
-}
-
-// Without mass, under a torque M on the rear crank: rods that carry F₁ and F₂ have (F₁ s + F₂ c) r = M, and 2 F₁² + 2 F₂² +
-// 2 (F₁ + F₂)² over all pins is least at F₁ = λ (2 s − c)/3, F₂ = λ (2 c − s)/3, λ = 3 M/(2 r (1 − s c)). Friction in the bearing of
-// the front crank takes ρ |F₁ + F₂|.
-TEST(ParallelCranks, TwoRodsShareTheirForceAsPinsOfEqualStiffness) {
-  SketchOf of = with_two_rods();
-  for (LinkageSketch::Link& link : of.s.links) link.mass = link.inertia = 0;
-  const LinkageData data = of.data();
-  const double torque = 500, f = 0.2, rho = 0.03 * f / std::sqrt(1 + f * f);
-  const auto friction = tabulate_joint_friction(data, {{.name = "pin O", .friction = {f, f, 0, 0}, .radius = 0.03}}, {},
-                                                {}, Extraction::first);
-  EXPECT_NE(shared_reactions_of(data).find("1 closure more"), std::string::npos);
-  for (int i = 0; i < 40; ++i) {
-    const double phi = 0.157 * i, s = std::sin(phi), c = std::cos(phi), lambda = 3 * torque / (2 * r * (1 - s * c));
-    const double right = lambda * (2 * s - c) / 3, left = lambda * (2 * c - s) / 3;
-    const LinkageForces forces = forces_in(linkage_of(data, phi), {phi, 5, 0, torque});
-    EXPECT_NEAR(forces.torque, -torque, 1e-9);
-    for (const JointForces& j : forces.joints) {
-      const std::string name = j.name;
-      const double wanted = name == "pin A" || name == "pin B"   ? right
-                            : name == "pin P" || name == "pin Q" ? left
-                                                                 : right + left;
-      EXPECT_NEAR(j.force.magnitude(), std::abs(wanted), 1e-9 * lambda) << name << " " << phi;
-    }
-    EXPECT_NEAR(friction->torque({.phi = phi, .omega = 5, .load = torque}).torque, -rho * std::abs(right + left),
-                1e-6 * rho * lambda);
-  }
 }
 
 // A drag link turns the crank C D of a parallelogram C D E G with the frame: its arm goes as the drag link goes.
@@ -327,39 +294,6 @@ TEST(ParallelCranks, OfRoundedCoordinatesRunAndSayWhatWasMoved) {
   EXPECT_TRUE(std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) {
     return note.find("rods: the links rod, rear, third are taken as parallel") == 0;
   }));
-}
-
-// Within the friction circles of a change point a single rod jams; two rods 90° apart run down.
-TEST(ParallelCranks, HaveFrictionInTheirJointsWhereReactionsAreBounded) {
-  const std::string joints = "joints = { C = { radius = \"30 mm\", friction = 0.1 } }\n[rods.links]";
-  const auto rubbing = [&](std::string text) {
-    text.replace(text.find("[rods.links]"), 12, joints);
-    return test::scene_from(text);
-  };
-  try {
-    compile(rubbing(scene_of(false)), Effects{});
-    ADD_FAILURE() << "not refused";
-  } catch (const std::exception& e) {
-    EXPECT_NE(std::string(e.what()).find("a second rod on cranks 90° apart"), std::string::npos) << e.what();
-  }
-  std::string two = scene_of(false);
-  const auto put = [&](const std::string& what, const std::string& by) {
-    two.replace(two.find(what), what.size(), by);
-  };
-  put("C = [400, 0]", "C = [400, 0], P = [-50, 86.6025], Q = [350, 86.6025]");
-  put("\"O A\"", "\"O A P\"");
-  put("\"C B\"", "\"C B Q\"");
-  put("rear = {", "left = { points = \"P Q\", mass = \"8 kg\" }\nrear = {");
-  Scene scene = rubbing(two);
-  scene.effects.joint_friction = true;
-  const Result run = test::run(scene);
-  ASSERT_TRUE(run.complete);
-  EXPECT_TRUE(std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) {
-    return note.find("1 closure more than they need: reactions are those of joints of equal stiffness") !=
-           std::string::npos;
-  }));
-  scene.effects.joint_friction = false;
-  EXPECT_LT(test::series(run, "speed.rods").back(), test::series(test::run(scene), "speed.rods").back() - 1e-3);
 }
 
 }  // namespace
