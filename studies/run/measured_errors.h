@@ -16,7 +16,8 @@ inline constexpr double rounding_of_a_run = 8 * std::numeric_limits<double>::eps
 
 // Figures of another run. Their differences are weighted: 1 for a run coarser than the one assessed, so that the
 // difference is the coarser one's error; 2 for one of equal accuracy, as the difference then contains two similar
-// errors, either of which may be the larger.
+// errors, either of which may be the larger; 0.4 for a run coarser than the latter by tolerance_step, whose error is at
+// least five times that of the finer one: twice what that one may hide.
 struct Witness {
   const std::vector<Figure>* figures = nullptr;
   double weight = 1;

@@ -354,4 +354,13 @@ void show_background(Findings& f, const Results& results) {
     f.show_scene(last.scene_file, last.model->scene.text);
 }
 
+std::vector<LimitedSteps> limits_of(const RunOutcome& outcome, Equations& equations) {
+  if (outcome.state.empty()) return {};
+  try {
+    return outcome.limits.ranked(equations, outcome.t, outcome.state);
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+}
+
 }  // namespace kurbel

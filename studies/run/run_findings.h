@@ -85,4 +85,7 @@ void show_delta_formulas(Findings& findings, Chapter in, const Results& results)
 // Audit, statistics, events, explanation, scene: the page's last chapters.
 void show_background(Findings& findings, const Results& results);
 
+// Causes of a run's short steps; empty if the equations cannot be evaluated at its end.
+std::vector<LimitedSteps> limits_of(const RunOutcome& outcome, Equations& equations);
+
 }  // namespace kurbel

@@ -36,6 +36,8 @@ constexpr double least_tolerance = 2e-15;  // smaller ones exceed double precisi
 // Shortest last step of the sequence: errors decrease at least with the square root of the tolerance, so that the
 // coarser run's are twice the finer's, and their difference still covers the finer's.
 constexpr double least_step = 4;
+// A finer run with fewer steps than this multiple of the coarser one's has much the same errors: at order 8 not 1/8.
+constexpr double least_more_steps = 1.3;
 
 class Simulation {
  public:
@@ -98,9 +100,9 @@ class Simulation {
   void confirm() {
     while (!ladder_agrees() && tighten()) {
     }
-    // At first not smaller than usually sufficient: a method of low order may have needed a far smaller tolerance than another.
-    const double usual = settings_.accuracy / 10 / tolerance_step;
-    if (interrupted() || !run_elsewhere(std::max(tolerance_, usual))) return;
+    // At first not smaller than usually sufficient: a method of low order may have needed a far smaller one than another.
+    if (interrupted() || !run_elsewhere(std::max(tolerance_, settings_.accuracy / 10 / tolerance_step))) return;
+    if (coarse_is_alike() && !interrupted()) tighten_elsewhere();
     while (!confirmed() && !interrupted()) {
       const bool blame_elsewhere = error_by(nullptr, elsewhere_.get()) > error_by(coarse_.get(), nullptr);
       const bool went_on =
@@ -117,13 +119,26 @@ class Simulation {
            fine_->energy->closes(settings_.accuracy);
   }
   bool interrupted() const { return options_.watch.stopped(); }
+  // Where edges, turns or stability end the steps, the tolerance hardly changes them, and the difference of two runs does
+  // not show their errors; that to an independent run does, if its own are known to be smaller: by a coarser one like it.
+  bool coarse_is_alike() const {
+    const auto steps = [](const OneRun& run) { return static_cast<double>(run.outcome.statistics.stepper.steps); };
+    return coarse_ && steps(*fine_) < least_more_steps * steps(*coarse_);
+  }
 
-  static constexpr double weight_of_elsewhere = 2;  // measured_errors.h says why
+  static constexpr double weight_of_elsewhere = 2, weight_of_coarse_elsewhere = 0.4;  // measured_errors.h says why
+  // These runs with their weights, as far as they were made; a coarser independent one goes with the independent one.
+  std::vector<std::pair<const OneRun*, double>> weighted(const OneRun* coarse, const OneRun* elsewhere) const {
+    std::vector<std::pair<const OneRun*, double>> list;
+    if (coarse) list.emplace_back(coarse, weight_of_coarse_);
+    if (elsewhere) list.emplace_back(elsewhere, weight_of_elsewhere);
+    if (elsewhere && coarse_elsewhere_) list.emplace_back(coarse_elsewhere_.get(), weight_of_coarse_elsewhere);
+    return list;
+  }
   std::vector<Witness> witnesses(const OneRun* coarse, const OneRun* elsewhere,
                                  std::vector<Figure> OneRun::*what = &OneRun::figures) const {
     std::vector<Witness> list;
-    if (coarse) list.push_back({&(coarse->*what), weight_of_coarse_});
-    if (elsewhere) list.push_back({&(elsewhere->*what), weight_of_elsewhere});
+    for (const auto& [run, weight] : weighted(coarse, elsewhere)) list.push_back({&(run->*what), weight});
     return list;
   }
   // Largest error over its scale in the figures, by these runs.
@@ -179,6 +194,8 @@ class Simulation {
     if (elsewhere_ && ladder_ended()) {
       coarse_ = std::move(elsewhere_);
       weight_of_coarse_ = weight_of_elsewhere;
+    } else {
+      coarse_elsewhere_ = std::move(elsewhere_);
     }
     elsewhere_ = std::move(other);
     elsewhere_tolerance_ = tolerance;
@@ -222,11 +239,9 @@ class Simulation {
     for (std::vector<Figure>* figures : {&fine_->figures, &fine_->last_state})
       for (Figure& f : *figures)
         if (f.error && !f.exact) *f.error += tables * std::max(std::abs(f.value), f.scale);
-    for (const auto& [witness, weight] :
-         {std::pair(coarse_.get(), weight_of_coarse_), std::pair(elsewhere_.get(), weight_of_elsewhere)})
-      if (witness)
-        add_event_errors(fine_->outcome.events, witness->outcome.events, weight, hidden * settings_.until,
-                         result_.event_errors);
+    for (const auto& [witness, weight] : weighted(coarse_.get(), elsewhere_.get()))
+      add_event_errors(fine_->outcome.events, witness->outcome.events, weight, hidden * settings_.until,
+                       result_.event_errors);
     for (std::size_t k = 0; k < result_.event_errors.size(); ++k)
       if (std::optional<double>& error = result_.event_errors[k]) *error += tables * fine_->outcome.events[k].t;
     result_.measured_accuracy = std::max(of_figures, of_energy);
@@ -371,7 +386,7 @@ class Simulation {
     result_.periods = run.periods;
     result_.cycles = run.cycles.cycles();
     result_.statistics = run.outcome.statistics;
-    result_.statistics.limits = limits_of(run.outcome);
+    result_.statistics.limits = limits_of(run.outcome, equations_);
     run.trajectory->add_peaks(run.extremes->rows());
     result_.trajectory = run.trajectory;
     result_.model = model_;
@@ -397,16 +412,6 @@ class Simulation {
       result_.notes.push_back(std::move(note));
     for (std::string& note : static_curve_notes(m, *run.trajectory)) result_.notes.push_back(std::move(note));
   }
-  // Causes of short steps; empty if the equations cannot be evaluated at the end.
-  std::vector<LimitedSteps> limits_of(const RunOutcome& outcome) {
-    if (outcome.state.empty()) return {};
-    try {
-      return outcome.limits.ranked(equations_, outcome.t, outcome.state);
-    } catch (const std::runtime_error&) {
-      return {};
-    }
-  }
-
   std::shared_ptr<const Model> model_;
   const SimulateOptions& options_;
   RunSettings settings_;
@@ -416,6 +421,7 @@ class Simulation {
   std::shared_ptr<WorkTables> work_tables_;
   double tolerance_ = 0, elsewhere_tolerance_ = 0;        // of fine_ and elsewhere_
   std::unique_ptr<OneRun> fine_, coarse_, elsewhere_;     // the run whose figures count, and its witnesses
+  std::unique_ptr<OneRun> coarse_elsewhere_;              // the independent one before it, with a larger tolerance
   double weight_of_coarse_ = 1;                           // measured_errors.h says why
   bool ladder_failed_ = false, elsewhere_ended_ = false;  // a tighter run of theirs failed
   bool stiff_ = false;                                    // "auto" takes implicit steps
