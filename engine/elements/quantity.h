@@ -45,7 +45,10 @@ struct QuantityKind {
     run,           // from the start of a run to its end
     cycle,         // the steady cycle, or the last whole cycle of a run before it runs down
     steady_cycle,  // the steady cycle, for quantities that also exist for a whole run
-    step           // of the operating sequence: until the next one is carried out
+    step,          // of the operating sequence: until the next one is carried out
+    run_up,        // the three periods of a run that becomes steady (studies/run/periods.h)
+    steady_motion,
+    run_down
   };
   std::string_view channel = {};  // "torque"; empty: an element's own, named in the text of the name
   Functional functional = Functional::none;
@@ -125,7 +128,8 @@ inline constexpr QuantityKind torque_order_phase{"torque", order_phase, cycle};
 inline std::string prefix_of(const QuantityKind& what) {
   using enum QuantityKind::Window;
   const bool run_alone = what.window == run && what.functional == Functional::mean;
-  const char* window = what.window == steady_cycle ? "cycle_" : what.window == step ? "step_" : run_alone ? "run_" : "";
+  constexpr const char* windows[] = {"", "", "", "cycle_", "step_", "run_up_", "steady_motion_", "run_down_"};
+  const char* window = run_alone ? "run_" : windows[static_cast<std::size_t>(what.window)];
   return std::string(window) + prefix_of(what.functional);
 }
 // "cycle_peak_torque"; empty for an element's own quantity.

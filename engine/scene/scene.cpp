@@ -123,8 +123,9 @@ const std::vector<Key>& figure_keys() {
        .type = KeyType::text,
        .fallback = "\"run\"",
        .doc =
-           "run: from its start to its end; cycle: the steady cycle, in a run the last whole one before it runs down",
-       .choices = {"run", "cycle"}},
+           "run: from its start to its end; cycle: the steady cycle, in a run the last whole one before it runs down; "
+           "run-up, steady motion, run-down: the three periods of a run that becomes steady",
+       .choices = {"run", "cycle", "run-up", "steady motion", "run-down"}},
       {.name = "step",
        .type = KeyType::integer,
        .domain = {.low = 1, .high = 1000},

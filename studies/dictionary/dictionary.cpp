@@ -61,6 +61,9 @@ struct Composed {
 Composed composed(std::string_view name) {
   constexpr std::pair<std::string_view, std::string_view> windows[] = {{"cycle_", "one steady cycle"},
                                                                        {"step_", "one step of the operating sequence"},
+                                                                       {"run_up_", "the run-up"},
+                                                                       {"steady_motion_", "the steady motion of a run"},
+                                                                       {"run_down_", "the run-down"},
                                                                        {"run_", "a whole run"},
                                                                        {"", "a whole run"}};
   constexpr std::pair<std::string_view, std::string_view> functionals[] = {

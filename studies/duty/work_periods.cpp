@@ -17,8 +17,9 @@ struct Border {
 
 double sum_of(const std::array<double, 4>& work) { return work[0] + work[1] + work[2] + work[3]; }
 
-WorkPeriod between(const char* name, const Border& a, const Border& b) {
-  WorkPeriod p{.name = name, .begin = a.t, .end = b.t};
+WorkPeriod between(const WorkPeriod& which, const Border& a, const Border& b) {
+  WorkPeriod p = which;
+  p.begin = a.t, p.end = b.t;
   for (std::size_t i = 0; i < p.work.size(); ++i) {
     p.work[i] = b.work[i] - a.work[i];
     p.work_resolution[i] = std::abs(a.resolution[i]) + std::abs(b.resolution[i]);
@@ -58,9 +59,11 @@ std::vector<WorkPeriod> three_periods(const Periods& p, double begin, double end
   if (!p.steady) return {};
   std::vector<WorkPeriod> list;
   const double from = p.run_up_end.value_or(begin), to = p.run_down_begin.value_or(end);
-  if (from > begin) list.push_back({.name = names[0], .begin = begin, .end = from});
-  if (to > from) list.push_back({.name = names[1], .begin = from, .end = to});
-  if (p.run_down_begin) list.push_back({.name = names[2], .begin = to, .end = p.standstill.value_or(end)});
+  using enum QuantityKind::Window;
+  if (from > begin) list.push_back({.name = names[0], .window = run_up, .begin = begin, .end = from});
+  if (to > from) list.push_back({.name = names[1], .window = steady_motion, .begin = from, .end = to});
+  if (p.run_down_begin)
+    list.push_back({.name = names[2], .window = run_down, .begin = to, .end = p.standstill.value_or(end)});
   return list;
 }
 
@@ -91,7 +94,7 @@ std::vector<WorkPeriod> work_periods(const Model& m, const Periods& periods, con
   for (const WorkPeriod& p : three_periods(periods, whole.begin, whole.end)) {
     const std::optional<Border> begin = border_at(p.begin), end = border_at(p.end);
     if (!begin || !end) return {};
-    list.push_back(between(p.name, *begin, *end));
+    list.push_back(between(p, *begin, *end));
   }
   return list;
 }

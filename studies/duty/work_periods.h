@@ -29,7 +29,8 @@ std::vector<double> works_done(const Equations& equations, std::span<const doubl
 std::optional<double> efficiency_of(double driving, double useful, double weight, double energy);
 
 struct WorkPeriod {
-  const char* name = "";         // "run_up", "steady_motion", "run_down"
+  const char* name = "";  // "run_up", "steady_motion", "run_down"
+  QuantityKind::Window window = QuantityKind::Window::run;
   double begin = 0, end = 0;     // [s]
   std::array<double, 4> work{};  // by Account: driving, useful, harmful, weight [J]
   double energy = 0;             // ΔE, of kinetic and stored energy as they are at both ends [J]

@@ -27,6 +27,18 @@ Functional functional_named(const std::string& name) {
   return std::ranges::find(names, name, &std::pair<std::string_view, Functional>::first)->second;
 }
 
+Over window_named(const std::string& name) {
+  constexpr std::pair<std::string_view, Over> names[] = {{"run", Over::run},
+                                                         {"cycle", Over::steady_cycle},
+                                                         {"run-up", Over::run_up},
+                                                         {"steady motion", Over::steady_motion},
+                                                         {"run-down", Over::run_down}};
+  return std::ranges::find(names, name, &std::pair<std::string_view, Over>::first)->second;
+}
+bool is_period(Over window) {
+  return window == Over::run_up || window == Over::steady_motion || window == Over::run_down;
+}
+
 // "step_time_above_torque.2.40kN*m.main_coupling": the level as the scene gives it.
 Name name_of(const AskedFigure& asked, std::string level) {
   const Name& channel = asked.channel.name;
@@ -76,8 +88,7 @@ std::vector<AskedFigure> read(const Model& model, std::vector<std::string>& of_o
       continue;
     }
     AskedFigure asked{.channel = *channel, .functional = functional_named(request.functional), .step = request.step};
-    if (request.window == "cycle") asked.window = Over::steady_cycle;
-    if (request.step > 0) asked.window = Over::step;
+    asked.window = request.step > 0 ? Over::step : window_named(request.window);
     const bool time = asked.functional == Functional::above;
     DocumentValue level;
     level.type = DocumentValue::Type::text, level.text = request.level, level.at = request.at;
@@ -91,6 +102,31 @@ std::vector<AskedFigure> read(const Model& model, std::vector<std::string>& of_o
   return list;
 }
 
+// Times in a stretch where its channel is looked at: its ends, its middle, and beside them for the rates.
+struct Looks {
+  Looks(double from, double to)
+      : delta(beside * (to - from)),
+        at{from, from + delta, middle(from, to) - delta, middle(from, to), middle(from, to) + delta, to - delta, to} {}
+  static double middle(double from, double to) { return 0.5 * (from + to); }
+  double delta;
+  std::array<double, 7> at;
+};
+
+// The polynomial through a channel's values at the ends of a stretch and at the Gauss points between them, by Lagrange.
+double interpolated(double from, double to, const std::array<double, 7>& x, double t) {
+  constexpr auto& inner = gauss<5>.x;
+  constexpr std::array<double, 7> nodes = {-1, inner[0], inner[1], inner[2], inner[3], inner[4], 1};
+  const double s = (2 * t - from - to) / (to - from);
+  double sum = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    double factor = x[i];
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      if (k != i) factor *= (s - nodes[k]) / (nodes[i] - nodes[k]);
+    sum += factor;
+  }
+  return sum;
+}
+
 }  // namespace
 
 std::vector<AskedFigure> asked_figures(const Model& model) {
@@ -102,20 +138,26 @@ std::vector<std::string> figures_not_given(const Model& model, const std::vector
   std::vector<std::string> notes;
   for (const AskedFigure& asked : read(model, notes))
     if (!find(given, asked.figure.name))
-      notes.push_back(fmt::format(
-          "[[figure]]: no {}: the run {}", asked.figure.name,
-          asked.step > 0 ? fmt::format("does not come to step {} of the sequence", asked.step) : "has no whole cycle"));
+      notes.push_back(fmt::format("[[figure]]: no {}: the run {}", asked.figure.name,
+                                  asked.step > 0 ? fmt::format("does not come to step {} of the sequence", asked.step)
+                                  : asked.window == Over::run_up        ? "has no run-up to a steady motion"
+                                  : asked.window == Over::steady_motion ? "does not become steady"
+                                  : asked.window == Over::run_down      ? "has no run-down from a steady motion"
+                                                                        : "has no whole cycle"));
   return notes;
 }
 
 AskedRecorder::AskedRecorder(const Model& model, const CycleRecorder* cycles) : cycles_(cycles) {
   for (AskedFigure& asked : asked_figures(model))
-    if (cycles || asked.window == Over::steady_cycle) asked_.push_back({std::move(asked)});
+    if (cycles || asked.window == Over::steady_cycle) {
+      const Meter meter{asked.functional, asked.level};
+      asked_.push_back({std::move(asked), meter});
+    }
 }
 
 void AskedRecorder::begin(double t, std::span<const double>, Equations&) {
   for (Asked& asked : asked_)
-    if (asked.window == Over::run || !cycles_) asked.open = true, asked.now = {t, t};
+    if (asked.window == Over::run || is_period(asked.window) || !cycles_) asked.open = true, asked.now = {t, t};
 }
 
 void AskedRecorder::step(StepView& view) {
@@ -171,69 +213,117 @@ void AskedRecorder::begin_cycle(double t) {
 // From a to b within a step.
 void AskedRecorder::take(StepView& view, double a, double b) {
   if (!(b > a)) return;
-  constexpr int parts = 2;
-  for (int part = 0; part < parts; ++part) {
-    const double from = a + (b - a) * part / parts, to = part + 1 < parts ? a + (b - a) * (part + 1) / parts : b;
-    const double middle = 0.5 * (from + to), delta = beside * (to - from);
-    const std::array time = {from, from + delta, middle - delta, middle, middle + delta, to - delta, to};
-    std::vector<std::array<double, time.size()>> values(asked_.size());
-    for (std::size_t k = 0; k < time.size(); ++k) {
-      const Snapshot& s = view.snapshot(time[k]);
-      for (std::size_t i = 0; i < asked_.size(); ++i) values[i][k] = asked_[i].channel.value(s);
-    }
-    for (std::size_t i = 0; i < asked_.size(); ++i) {
-      Asked& asked = asked_[i];
-      if (!asked.open) continue;
-      const auto x = [&](double t) { return asked.channel.value(view.snapshot(t)); };
-      const auto rate = [&](double t) { return x(std::min(t + delta, to)) - x(std::max(t - delta, from)); };
-      const auto& at = values[i];
-      std::vector<Sampled> ends = {{from, at[0]}, {middle, at[3]}, {to, at[6]}};
-      for_each_turn(rate, {from, at[1] - at[0]}, {middle, at[4] - at[2]}, {to, at[6] - at[5]}, [&](double t) {
-        ends.push_back({t, x(t)});
-      });
-      std::ranges::sort(ends, {}, &Sampled::at);
-      for (std::size_t k = 0; k + 1 < ends.size(); ++k) add_piece(view, asked, ends[k], ends[k + 1]);
-    }
-    gauss<5>.over(from, to - from, [&](double t, double weight) {
-      const Snapshot* s = nullptr;
-      for (Asked& asked : asked_) {
-        const bool square = asked.functional == Functional::rms;
-        if (!asked.open || !(square || asked.functional == Functional::mean)) continue;
-        if (!s) s = &view.snapshot(t);
-        const double value = asked.channel.value(*s);
-        asked.now.sum += weight * (square ? value * value : value);
-      }
-    });
-  }
+  const double middle = a + (b - a) / 2;
+  take_half(view, a, middle);
+  take_half(view, middle, b);
 }
 
-double AskedRecorder::merit(const Asked& asked, double value) {
-  return asked.functional == Functional::greatest ? value
-         : asked.functional == Functional::least  ? -value
-                                                  : std::abs(value);
+void AskedRecorder::take_half(StepView& view, double from, double to) {
+  const Looks looks(from, to);
+  std::vector<std::array<double, 7>> values(asked_.size());
+  for (std::size_t k = 0; k < looks.at.size(); ++k) {
+    const Snapshot& s = view.snapshot(looks.at[k]);
+    for (std::size_t i = 0; i < asked_.size(); ++i) values[i][k] = asked_[i].channel.value(s);
+  }
+  for (std::size_t i = 0; i < asked_.size(); ++i) {
+    Asked& asked = asked_[i];
+    if (!asked.open) continue;
+    if (is_period(asked.window)) asked.now = {from, to}, asked.stretches.push_back({});
+    asked.meter.add(
+        asked.now, from, to, [&](double t) { return asked.channel.value(view.snapshot(t)); }, values[i]);
+  }
+  std::size_t node = 0;
+  gauss<5>.over(from, to - from, [&](double t, double weight) {
+    ++node;
+    const Snapshot* s = nullptr;
+    for (Asked& asked : asked_) {
+      if (!asked.open || !(asked.meter.needs_integral() || is_period(asked.window))) continue;
+      if (!s) s = &view.snapshot(t);
+      const double value = asked.channel.value(*s);
+      asked.meter.add_integral(asked.now, weight, value);
+      if (is_period(asked.window)) asked.stretches.back().x[node] = value;
+    }
+  });
+  for (std::size_t i = 0; i < asked_.size(); ++i)
+    if (Asked& asked = asked_[i]; asked.open && is_period(asked.window)) {
+      Stretch& stretch = asked.stretches.back();
+      static_cast<Gauge&>(stretch) = asked.now;
+      stretch.x.front() = values[i].front(), stretch.x.back() = values[i].back();
+    }
+}
+
+double AskedRecorder::Meter::merit(double value) const {
+  return functional == Functional::greatest ? value : functional == Functional::least ? -value : std::abs(value);
+}
+
+void AskedRecorder::Meter::add_integral(Gauge& gauge, double weight, double value) const {
+  if (needs_integral()) gauge.sum += weight * (functional == Functional::rms ? value * value : value);
+}
+
+void AskedRecorder::Meter::add_extreme(Gauge& gauge, const Sampled& found) {
+  size = std::max(size, std::abs(found.value));
+  if (gauge.extreme && merit(found.value) <= merit(gauge.extreme->value)) return;
+  const bool same = gauge.extreme && merit(found.value) - merit(gauge.extreme->value) <= same_peak * size;
+  gauge.extreme = {same ? gauge.extreme->at : found.at, found.value};
+}
+
+template <class X>
+void AskedRecorder::Meter::add(Gauge& gauge, double from, double to, const X& x, const std::array<double, 7>& at) {
+  const Looks looks(from, to);
+  const double middle = looks.at[3], delta = looks.delta;
+  const auto rate = [&](double t) { return x(std::min(t + delta, to)) - x(std::max(t - delta, from)); };
+  std::vector<Sampled> ends = {{from, at[0]}, {middle, at[3]}, {to, at[6]}};
+  for_each_turn(rate, {from, at[1] - at[0]}, {middle, at[4] - at[2]}, {to, at[6] - at[5]}, [&](double t) {
+    ends.push_back({t, x(t)});
+  });
+  std::ranges::sort(ends, {}, &Sampled::at);
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k) add_monotone(gauge, x, ends[k], ends[k + 1]);
 }
 
 // The channel rises or falls from a to b.
-void AskedRecorder::add_piece(StepView& view, Asked& asked, const Sampled& a, const Sampled& b) {
-  Gauge& now = asked.now;
-  now.end = b.at;
-  for (const Sampled& end : {a, b}) {
-    asked.size = std::max(asked.size, std::abs(end.value));
-    if (now.extreme && merit(asked, end.value) <= merit(asked, now.extreme->value)) continue;
-    const bool same =
-        now.extreme && merit(asked, end.value) - merit(asked, now.extreme->value) <= same_peak * asked.size;
-    now.extreme = {same ? now.extreme->at : end.at, end.value};
-  }
-  if (asked.functional != Functional::above) return;
-  const double over_a = a.value - asked.level, over_b = b.value - asked.level;
+template <class X>
+void AskedRecorder::Meter::add_monotone(Gauge& gauge, const X& x, const Sampled& a, const Sampled& b) {
+  gauge.end = b.at;
+  for (const Sampled& end : {a, b}) add_extreme(gauge, end);
+  if (functional != Functional::above) return;
+  const double over_a = a.value - level, over_b = b.value - level;
   if (over_a <= 0 && over_b <= 0) return;
   if (over_a >= 0 && over_b >= 0) {
-    now.sum += b.at - a.at;
+    gauge.sum += b.at - a.at;
     return;
   }
-  const auto over = [&](double t) { return asked.channel.value(view.snapshot(t)) - asked.level; };
-  const double crossing = find_root(over, a.at, over_a, b.at, over_b);
-  now.sum += over_b > 0 ? b.at - crossing : crossing - a.at;
+  const double crossing = find_root([&](double t) { return x(t) - level; }, a.at, over_a, b.at, over_b);
+  gauge.sum += over_b > 0 ? b.at - crossing : crossing - a.at;
+}
+
+double AskedRecorder::Meter::value(const Gauge& gauge) const {
+  const double mean = gauge.sum / (gauge.end - gauge.begin);
+  return functional == Functional::mean    ? mean
+         : functional == Functional::rms   ? std::sqrt(std::max(mean, 0.0))
+         : functional == Functional::above ? gauge.sum
+                                           : gauge.extreme->value;
+}
+
+// Between two times that need not be ends of stretches: in a part of one its channel is interpolated.
+AskedRecorder::Gauge AskedRecorder::between(const Asked& asked, double begin, double end) {
+  Meter meter = asked.meter;
+  Gauge all{begin, begin};
+  for (const Stretch& stretch : asked.stretches) {
+    const double from = std::max(begin, stretch.begin), to = std::min(end, stretch.end);
+    if (!(to > from)) continue;
+    Gauge part = stretch;
+    if (from > stretch.begin || to < stretch.end) {
+      const auto x = [&](double t) { return interpolated(stretch.begin, stretch.end, stretch.x, t); };
+      std::array<double, 7> at;
+      std::ranges::transform(Looks(from, to).at, at.begin(), x);
+      part = {from, to};
+      meter.add(part, from, to, x, at);
+      gauss<5>.over(from, to - from, [&](double t, double weight) { meter.add_integral(part, weight, x(t)); });
+    }
+    all.end = to, all.sum += part.sum;
+    meter.add_extreme(all, *part.extreme);
+  }
+  return all;
 }
 
 const AskedRecorder::Gauge* AskedRecorder::gauge_of(const Asked& asked, double cycle_end) const {
@@ -247,21 +337,34 @@ const AskedRecorder::Gauge* AskedRecorder::gauge_of(const Asked& asked, double c
   return gauge && gauge->end > gauge->begin ? gauge : nullptr;
 }
 
-void AskedRecorder::report(double cycle_end, FigureReporter& report) const {
+void AskedRecorder::give(const Asked& asked, const Gauge& gauge, double resolution, FigureReporter& report) {
+  Figure& figure = report.take(asked.figure);
+  const Meter& meter = asked.meter;
+  const bool extreme = !meter.needs_integral() && meter.functional != Functional::above;
+  figure.value = meter.value(gauge), figure.resolution = resolution;
+  figure.at = extreme ? gauge.extreme->at : gauge.end;
+  figure.scale = meter.functional == Functional::above ? gauge.end - gauge.begin : meter.size;
+}
+
+void AskedRecorder::report(double cycle_end, std::span<const PeriodOfRun> periods, FigureReporter& report) const {
   for (const Asked& asked : asked_) {
-    const Gauge* const gauge = gauge_of(asked, cycle_end);
-    if (!gauge || report.find(asked.figure.name)) continue;
-    Figure& figure = report.take(asked.figure);
-    const double time = gauge->end - gauge->begin, mean = gauge->sum / time;
-    figure.at = gauge->end, figure.scale = asked.size;
-    if (asked.functional == Functional::mean)
-      figure.value = mean;
-    else if (asked.functional == Functional::rms)
-      figure.value = std::sqrt(std::max(mean, 0.0));
-    else if (asked.functional == Functional::above)
-      figure.value = gauge->sum, figure.scale = time;
-    else
-      figure.value = gauge->extreme->value, figure.at = gauge->extreme->at;
+    if (report.find(asked.figure.name)) continue;
+    if (!is_period(asked.window)) {
+      if (const Gauge* const gauge = gauge_of(asked, cycle_end)) give(asked, *gauge, 0, report);
+      continue;
+    }
+    const auto period = std::ranges::find(periods, asked.window, &PeriodOfRun::window);
+    if (period == periods.end()) continue;
+    const auto gauge = [&](double shift) {
+      return between(asked, period->begin + shift * period->begin_open, period->end + shift * period->end_open);
+    };
+    const Gauge found = gauge(0);
+    if (!(found.end > found.begin)) continue;
+    double resolution = 0;
+    for (const double shift : {-1.0, 1.0})
+      if (const Gauge other = gauge(shift); other.end > other.begin)
+        resolution = std::max(resolution, std::abs(asked.meter.value(other) - asked.meter.value(found)));
+    give(asked, found, resolution, report);
   }
 }
 

@@ -5,11 +5,14 @@
 //     peak, max, min       at the ends of the pieces
 //     time above a level   by the root of x(t) − level, one at most in a piece
 //     mean, RMS            ∫ x dt, ∫ x² dt by Gauss points
-// A step of the sequence ends where a step of the integration does; the ends of cycles divide those. Errors are measured
-// by other runs, as of all figures.
+// A step of the sequence ends where a step of the integration does; the ends of cycles divide those. The three periods of a
+// run are known after it: what they need is kept for each half step, and where a period ends within one, the channel is
+// interpolated in it. Errors are measured by other runs, as of all figures.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,7 +25,7 @@ namespace kurbel {
 struct AskedFigure {
   Channel channel;
   Functional functional = Functional::peak;
-  QuantityKind::Window window = QuantityKind::Window::run;  // run, steady_cycle or step
+  QuantityKind::Window window = QuantityKind::Window::run;  // run, steady_cycle, step, or one of the three periods
   int step = 0;                                             // from 1
   double level = 0;                                         // in SI
   Figure figure = {};                                       // its name and unit
@@ -34,6 +37,13 @@ std::vector<AskedFigure> asked_figures(const Model& model);
 // A note on each that a run did not give: those, and others whose window it did not come to.
 std::vector<std::string> figures_not_given(const Model& model, const std::vector<Figure>& given);
 
+// One of the three periods of a run.
+struct PeriodOfRun {
+  QuantityKind::Window window = QuantityKind::Window::run;
+  double begin = 0, end = 0;
+  double begin_open = 0, end_open = 0;  // shifts of its ends that errors of the run may cause, common to all runs [s]
+};
+
 class AskedRecorder final : public Observer {
  public:
   // `cycles` observes the same run, before this; null: the run is one steady cycle, and only figures of it are given.
@@ -42,7 +52,7 @@ class AskedRecorder final : public Observer {
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
   // Figures not reported yet, of windows that the run came to; of all cycles the one with this end.
-  void report(double cycle_end, FigureReporter& report) const;
+  void report(double cycle_end, std::span<const PeriodOfRun> periods, FigureReporter& report) const;
 
  private:
   // What is known of one window.
@@ -51,19 +61,41 @@ class AskedRecorder final : public Observer {
     double sum = 0;             // ∫ x dt, ∫ x² dt, or the time above
     std::optional<Sampled> extreme = {};
   };
-  struct Asked : AskedFigure {
-    bool open = false;              // its window is under way
-    Gauge now = {};                 // in it
-    std::vector<Gauge> whole = {};  // in windows gone through: in all cycles, in the last step
-    double size = 0;                // greatest magnitude of the channel
+  // What a functional needs of a channel x.
+  struct Meter {
+    Functional functional = Functional::peak;
+    double level = 0, size = 0;  // of time above; greatest magnitude of the channel so far
+
+    bool needs_integral() const { return functional == Functional::rms || functional == Functional::mean; }
+    double merit(double value) const;
+    // Extremes and time above between two times; `at`: x at the times_within them.
+    template <class X>
+    void add(Gauge& gauge, double from, double to, const X& x, const std::array<double, 7>& at);
+    void add_integral(Gauge& gauge, double weight, double value) const;
+    void add_extreme(Gauge& gauge, const Sampled& found);
+    template <class X>
+    void add_monotone(Gauge& gauge, const X& x, const Sampled& a, const Sampled& b);
+    double value(const Gauge& gauge) const;
   };
-  static double merit(const Asked& asked, double value);
+  // Of half a step, with the channel at its ends and at the Gauss points between them.
+  struct Stretch : Gauge {
+    std::array<double, 7> x = {};
+  };
+  struct Asked : AskedFigure {
+    Meter meter = {};
+    bool open = false;                    // its window is under way
+    Gauge now = {};                       // in it
+    std::vector<Gauge> whole = {};        // in windows gone through: in all cycles, in the last step
+    std::vector<Stretch> stretches = {};  // of the whole run, for its periods
+  };
+  static Gauge between(const Asked& asked, double begin, double end);
   const Gauge* gauge_of(const Asked& asked, double cycle_end) const;
+  static void give(const Asked& asked, const Gauge& gauge, double resolution, FigureReporter& report);
   void follow_sequence(const Equations& equations, double t);
   std::vector<double> ends_of_cycles(const StepView& view);
   void begin_cycle(double t);
   void take(StepView& view, double a, double b);
-  void add_piece(StepView& view, Asked& asked, const Sampled& a, const Sampled& b);
+  void take_half(StepView& view, double from, double to);
 
   std::vector<Asked> asked_;
   const CycleRecorder* cycles_;

@@ -109,7 +109,7 @@ class RunFigures {
     FlywheelFalls::report(model_, run_->falls.get(), energy_scale(), report_);
     report_reserves(model_, report_);
     add_slipped_angles();
-    if (run_->asked) run_->asked->report(last_ ? last_->end : 0, report_);
+    if (run_->asked) run_->asked->report(last_ ? last_->end : 0, periods_of_run(), report_);
   }
   // In a separate order.
   void list() {
@@ -139,6 +139,16 @@ class RunFigures {
   }
 
  private:
+  std::vector<PeriodOfRun> periods_of_run() const {
+    const Periods& p = run_->periods;
+    const auto open = [&](double t) {
+      return t == p.run_up_end ? p.run_up_resolution : t == p.standstill ? p.standstill_resolution : 0;
+    };
+    std::vector<PeriodOfRun> list;
+    for (const WorkPeriod& period : three_periods(p, begin(), run_->outcome.t))
+      list.push_back({period.window, period.begin, period.end, open(period.begin), open(period.end)});
+    return list;
+  }
   std::string link() const { return model_.network.nodes[at(model_.reduction_node)].component; }
 
   void add_extremes() {

@@ -348,9 +348,9 @@ std::string keys_in_markdown() {
       "What excites, for the separation margins of `kurbel modes`, besides the scene's own laws: 1× and 2× of every "
       "shaft, meshing teeth, the mains, and `orders = [5]` in a component's table: blades or teeth, of the turn of its "
       "shaft (of one with two shafts, `.in`).\n\n"
-      "## `[[figure]]`\n\nNamed by its parts, `time_above_torque.40kN*m.main_coupling`, `step_mean_speed.2.motor`, and "
-      "then "
-      "swept, compared and explained as every figure. Its error is measured by the other runs, and crossings of a "
+      "## `[[figure]]`\n\nNamed by its parts, `time_above_torque.40kN*m.main_coupling`, `step_mean_speed.2.motor`, "
+      "`run_up_rms_torque.motor`, and then swept, compared and explained as every figure. Its error is measured by the "
+      "other runs, and crossings of a "
       "level "
       "are located on the solution within the steps.\n\n" +
       rows(figure_keys()) + "\n## Components\n\n";

@@ -169,7 +169,7 @@ class CycleFigures {
     add_works();
     add_drives();
     FigureReporter report(round_.figures, false);
-    asked_.report(0, report);
+    asked_.report(0, {}, report);
     round_.outside_data = ranges_.sentences();
     round_.orders = orders_of_cycle(map_, point_, tolerance_, turned_);
     return std::move(round_);

@@ -74,6 +74,40 @@ TEST(AskedFigures, TimeAboveALevelIsLocatedOnTheSolution) {
   expect(r.figures, "rms_twist.spring", std::sqrt(square), 1e-7);
 }
 
+// A wheel on a motor M = M_s (1 − ω/ω₀): ω = ω₀ (1 − e^(−t/T)), T = J ω₀/M_s, run-up until
+// ω = 0.99 ω₀; then the motor is switched off and a brake of constant torque stops the wheel: ω falls linearly.
+TEST(AskedFigures, OfThePeriodsOfARunAreThoseOfTheClosedForm) {
+  const Result r = test::run(R"(
+    line = ["motor", "wheel"]
+    motor = { kind = "dc shunt motor", stall_torque = "20 N*m", no_load_speed = "100 rad/s", inertia = "0.02 kg*m2" }
+    wheel = { kind = "flywheel", inertia = "0.08 kg*m2" }
+    brake = { kind = "brake", on = "wheel", torque = "5 N*m" }
+    sequence = { steps = [{ at = "0 s", set = "brake", to = 0 }, { at = "10 s", set = "motor", to = 0 },
+                          { at = "10 s", set = "brake", to = 1 }] }
+    figure = [
+      { functional = "rms", channel = "torque.motor", window = "run-up" },
+      { functional = "mean", channel = "speed.wheel", window = "run-up" },
+      { functional = "max", channel = "torque.motor", window = "steady motion" },
+      { functional = "time above", channel = "speed.wheel", level = "50 rad/s", window = "run-up" },
+      { functional = "time above", channel = "speed.wheel", level = "50 rad/s", window = "run-down" },
+      { functional = "mean", channel = "speed.wheel", window = "run-down" },
+      { functional = "rms", channel = "torque.brake", window = "run-down" },
+    ]
+    run = { until = "13 s" }
+  )");
+  ASSERT_TRUE(r.periods.run_up_end && r.periods.run_down_begin && r.periods.standstill) << r.periods.verdict;
+  const double T = 0.1 * 100 / 20.0, t1 = *r.periods.run_up_end;
+  EXPECT_NEAR(t1, T * std::log(100), 1e-4);  // within 1 % of the steady speed
+  expect(r.figures, "run_up_rms_torque.motor", 20 * std::sqrt(T / 2 * (1 - std::exp(-2 * t1 / T)) / t1), 1e-3);
+  expect(r.figures, "run_up_mean_speed.wheel", 100 * (1 - T / t1 * (1 - std::exp(-t1 / T))), 1e-3);
+  expect(r.figures, "steady_motion_max_torque.motor", 20 * std::exp(-t1 / T), 1e-4);
+  expect(r.figures, "run_up_time_above_speed.50rad/s.wheel", t1 - T * std::log(2), 1e-4);
+  const double at_10 = 100 * (1 - std::exp(-10 / T));
+  expect(r.figures, "run_down_time_above_speed.50rad/s.wheel", (at_10 - 50) / 50, 1e-4);
+  expect(r.figures, "run_down_rms_torque.brake", 5, 1e-4);
+  expect(r.figures, "run_down_mean_speed.wheel", at_10 / 2, 1e-4);
+}
+
 // The rigid machine has no twist, nothing of it goes through cycles, and the sequence waits for ever: no faults of the scene.
 TEST(AskedFigures, ThatARunDoesNotGiveAreNoted) {
   const Result r = test::run(R"(
