@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <string>
 
 #include "engine/numerics/index.h"
 
@@ -41,20 +43,24 @@ Purpose purpose_of(Role role, double before, double to) {
 
 }  // namespace
 
-std::optional<Stopping> first_stopping(const Model& model, const EventLog& events) {
+std::optional<Stopping> first_stopping(const Model& model, const EventLog& events, std::optional<double> standstill) {
   const std::string link = model.node_label(model.shafts[at(model.shaft_of_node[at(model.reduction_node)])].reference);
   const Event* signal = nullptr;
   std::map<std::string, double> last;  // value of each command
+  std::set<std::string> slipped;  // since the signal: what carried torque before, and locks again, drives nothing anew
   for (const Event& e : events) {
-    if (e.kind == EventKind::lock || (e.component == link && e.kind == EventKind::motion)) signal = nullptr;
+    if (e.kind == EventKind::slip) slipped.insert(e.component);
+    const bool drives_anew = e.kind == EventKind::lock && !slipped.count(e.component);
+    if (drives_anew || (e.component == link && e.kind == EventKind::motion)) signal = nullptr;
     if (e.kind == EventKind::command) {
       const double to = e.value.value_or(0), before = last.try_emplace(e.component, 1).first->second;
       const Purpose purpose = purpose_of(role_of(model, e.component), before, to);
       if (purpose == Purpose::drives) signal = nullptr;
-      if (purpose == Purpose::stops && !signal) signal = &e;
+      if (purpose == Purpose::stops && !signal) signal = &e, slipped.clear();
       last[e.component] = to;
     }
-    if (e.component == link && e.kind == EventKind::rest && signal)
+    const bool link_rests = e.component == link || e.t == standstill;  // with a shaft that a closed contact joins to it
+    if (link_rests && e.kind == EventKind::rest && signal)
       return Stopping{e.t - signal->t, e.angle - signal->angle, e.t,
                       std::max(std::abs(e.angle), std::abs(signal->angle))};
   }

@@ -218,7 +218,7 @@ class RunFigures {
   }
   void add_stopping() {
     const std::optional<Stopping> stopping =
-        report_.listing() ? Stopping{} : first_stopping(model_, run_->outcome.events);
+        report_.listing() ? Stopping{} : first_stopping(model_, run_->outcome.events, run_->periods.standstill);
     if (!stopping) return;
     report_(quantities::stopping_time, link(), [&] {
       return Found{stopping->time, model_.scene.run.until, stopping->at};

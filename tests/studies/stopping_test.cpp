@@ -67,6 +67,28 @@ TEST(Stopping, HasTheRoundingOfItsAngles) {
   EXPECT_GT(error(100), 4e-13);  // an ulp of 3000 rad
 }
 
+// A rigid belt that the brake makes slip, J₂ ω̇ = −(M_b − M_s), grips again when its pulleys turn alike: that is no new
+// drive. The rotor is slowed by M_s all along; both then by the brake alone.
+TEST(Stopping, GoesOnWhereABeltThatSlippedGripsAgain) {
+  const Result r = run(R"(
+line = ["motor", "belt", "wheel"]
+motor = { kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "100 rad/s", inertia = "0.5 kg*m2" }
+belt = { kind = "belt", diameter_in = "200 mm", diameter_out = "200 mm", pretension = "300 N", friction_coefficient = 0.3, wrap_angle = "180 deg" }
+wheel = { kind = "flywheel", inertia = "0.5 kg*m2" }
+brake = { kind = "brake", on = "wheel", torque = "100 N*m" }
+sequence = { steps = [{ at = "0 s", set = "brake", to = 0 }, { at = "5 s", set = "motor", to = 0 },
+                      { at = "5 s", set = "brake" }, { at = "5.3 s", set = "brake", to = 0.2 }] }
+run = { start = { speed = "100 rad/s" }, until = "12 s", accuracy = 1e-10 }
+)");
+  ASSERT_TRUE(r.complete) << r.diagnosis;
+  const double strand = std::exp(0.3 * std::numbers::pi), slip = 2 * 300 * (strand - 1) / (strand + 1) * 0.1;
+  const double J = 0.5, begin = 100;
+  const double belt_at = begin - (100 - slip) / J * 0.3, rotor_at = begin - slip / J * 0.3;
+  const double gripping = (rotor_at - belt_at) / ((slip + slip - 20) / J);  // from 5.3 s on
+  const double left = rotor_at - slip / J * gripping;
+  EXPECT_NEAR(figure(r, "stopping_time.motor"), 0.3 + gripping + left * 2 * J / 20, 1e-6);
+}
+
 // Nothing tells it to stop: a load that is too heavy does.
 TEST(Stopping, IsNoneWithoutASignal) {
   const Result r =
