@@ -18,7 +18,7 @@ void check_efficiency(const Reading<EfficiencyKeys>& e) {
         &Keys::bearing_driven,
         fmt::format("bearing_torque_backwards = {:g} N·m; must equal bearing_torque = {:g} N·m where the gear {}; "
                     "leave it out",
-                    e.bearing_driven, e.bearing_driving, e.self_locking() ? "locks itself" : "has no other losses"));
+                    e.bearing_driven, e.bearing_driving, e.self_locking() ? "is self-locking" : "has no other losses"));
 }
 
 }  // namespace

@@ -280,7 +280,7 @@ std::vector<Kind> planetary_kinds() {
                    {"second"}),
       kind_of<worm_fields, build_worm>(
           between_shafts, "worm gear",
-          "worm and wheel; with a friction coefficient its efficiencies follow, and whether it locks itself"),
+          "worm and wheel; with a friction coefficient its efficiencies follow, and whether it is self-locking"),
   };
 }
 

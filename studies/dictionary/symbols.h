@@ -81,7 +81,7 @@ inline constexpr Definition of_symbols[] = {
     {"r", "radius", "m", "", "9", "forces", "of the crank, or of a pin"},
     {"r_*", "radius", "m", "", "6", "gears", "r_b base circle"},
     {"η", "efficiency", "", "", "9", "forces, gears", "useful work over the work spent; η′ with the power going back"},
-    {"η′", "efficiency with the wheel driving", "", "", "6.15", "gears", "negative: the worm locks itself"},
+    {"η′", "efficiency with the wheel driving", "", "", "6.15", "gears", "negative: the worm is self-locking"},
     // inertia, works, flywheel
     {"I_r", "reduced inertia", "kg*m2", "", "2.1", on_sheets, "of the whole machine on the reduction link"},
     {"I_r′", "slope of the reduced inertia", "kg*m2", "", "2.1", on_sheets, "dI_r/dφ"},

@@ -50,7 +50,7 @@ struct BevelErrors {
 
 // Efficiency of both directions over the coefficient of friction.
 Plot efficiency_plot(const WormPair& pair) {
-  Plot plot{.title = "Efficiency falls with friction; where the wheel cannot drive, the pair locks itself",
+  Plot plot{.title = "Efficiency falls with friction; where the wheel cannot drive, the pair is self-locking",
             .x = {"coefficient of friction μ", ""},
             .y = {"efficiency η", ""},
             .series = {{.name = "worm drives", .role = Role::elastic}, {.name = "wheel drives", .role = Role::orange}}};

@@ -24,7 +24,7 @@
   X(mixer, "air_motor_mixer.toml", "mixer with an air motor")                                                        \
   X(diesel, "six_cylinder_engine.toml", "six-cylinder engine by indicator diagram and firing order, with generator") \
   X(drive, "press_drive.toml", "press drive as built: clutch and brake, single stroke, overload protection")         \
-  X(hoist, "worm_hoist.toml", "hoist with a worm gear that locks itself")                                            \
+  X(hoist, "worm_hoist.toml", "hoist with a self-locking worm gear")                                                 \
   X(brake, "planetary_brake.toml", "planetary gear with a brake on its ring")                                        \
   X(mill, "belt_mill.toml", "mill with a belt that slips at the start")                                              \
   X(genset, "diesel_generator.toml", "diesel generator: damper, rubber coupling, speed governor, load switched on")  \
@@ -34,7 +34,7 @@
   X(gears, "gear_test_rig.toml", "spur gears with varying tooth stiffness, run up through resonance")                \
   X(rig, "back_to_back_rig.toml", "back-to-back gear rig: a closed loop of shafts with locked-in torque")            \
   X(screw, "screw_press.toml", "screw press: flywheel on the spindle, a stroke that spends its energy")              \
-  X(jack, "screw_jack.toml", "screw jack whose thread locks itself")                                                 \
+  X(jack, "screw_jack.toml", "screw jack with a self-locking thread")                                                \
   X(steam, "steam_engine.toml", "double-acting steam engine: a cylinder drives the slider, no motor turns")          \
   X(unloader, "unloaded_compressor.toml",                                                                            \
     "double-acting compressor: started unloaded, its ends loaded one by one, emergency stop")
