@@ -2,13 +2,13 @@
 // switching off and on again, catalogue data.
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <complex>
 #include <random>
 
 #include "drivetrain/induction/induction_circuit.h"
 #include "tests/published/published.h"
+#include "tests/support/eigen_solutions.h"
 #include "tests/support/elements.h"
 
 namespace kurbel::two_axis_motor_test {
@@ -123,16 +123,16 @@ TEST(TwoAxisMotor, SwitchedOnItsTorqueOscillatesWithTheMains) {
     m.rates(ShaftState<double>{0, 0, 0, 0, 1, 1, unit}, rate);
     for (int i = 0; i < 4; ++i) a(i, k) = rate[i] - fed[i];
   }
-  const Eigen::EigenSolver<Eigen::Matrix4d> modes(a);
-  for (const auto& lambda : modes.eigenvalues()) EXPECT_NEAR(std::abs(lambda.imag()), 2 * M_PI * 60, 1e-6 * 377);
-  const Eigen::Vector4d rest = -a.lu().solve(fed);
-  const Eigen::Vector4cd part = modes.eigenvectors().lu().solve((-rest).cast<Complex>());
+  const test::EigenSolution modes = test::eigen_solution(a);
+  for (const auto& lambda : modes.values) EXPECT_NEAR(std::abs(lambda.imag()), 2 * M_PI * 60, 1e-6 * 377);
+  const Eigen::VectorXd rest = -test::solved(a, fed);
+  const Eigen::VectorXcd part = test::solved_complex(modes.vectors, (-rest).cast<Complex>());
   const auto torque = test::series(r, "torque.motor");
   double highest = 0;
   for (std::size_t row = 0; row < torque.size(); ++row) {
     const double t = r.trajectory->time()[row];
     Eigen::Vector4cd i = rest.cast<Complex>();
-    for (int k = 0; k < 4; ++k) i += part[k] * std::exp(modes.eigenvalues()[k] * t) * modes.eigenvectors().col(k);
+    for (int k = 0; k < 4; ++k) i += part[k] * std::exp(modes.values[k] * t) * modes.vectors.col(k);
     const double c[4] = {i[0].real(), i[1].real(), i[2].real(), i[3].real()};
     const double expected = m.torque(ShaftState<double>{0, 0, 0, 0, 1, 1, c});
     ASSERT_NEAR(torque[row], expected, 1e-6) << t;

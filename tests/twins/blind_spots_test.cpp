@@ -2,13 +2,13 @@
 // what is asked about.
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <complex>
 #include <numbers>
 
 #include "studies/modes/modes.h"
 #include "studies/reduce/reduce.h"
 #include "tests/mechanisms/slider_crank_statics.h"
+#include "tests/support/eigen_solutions.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::blind_spots_test {
@@ -348,7 +348,7 @@ until = "0.3 s"
   m(0, 1) = m(1, 0) = jr * ring_s * ring_c + planets * jp * planet_s * planet_c;
   m(1, 1) = jc + planets * mass * distance * distance + jr * ring_c * ring_c + planets * jp * planet_c * planet_c;
   const Eigen::Vector2d torque(sun_torque + ring_s * ring_torque, carrier_torque + ring_c * ring_torque);
-  const Eigen::Vector2d speed = 0.3 * m.ldlt().solve(torque);
+  const Eigen::Vector2d speed = 0.3 * test::solved(m, torque);
   EXPECT_NEAR(last_of(r, "speed.sun_push"), speed[0], 1e-7);
   EXPECT_NEAR(last_of(r, "speed.carrier_push"), speed[1], 1e-7);
   EXPECT_NEAR(last_of(r, "speed.ring_push"), ring_s * speed[0] + ring_c * speed[1], 1e-7);
