@@ -412,6 +412,7 @@ class Simulation {
       result_.notes.push_back(std::move(note));
     for (std::string& note : static_curve_notes(m, *run.trajectory)) result_.notes.push_back(std::move(note));
   }
+
   std::shared_ptr<const Model> model_;
   const SimulateOptions& options_;
   RunSettings settings_;
