@@ -1,7 +1,6 @@
 // flexible_coupling_test.cpp — progressive and rubber couplings against their closed forms.
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <complex>
 
@@ -9,6 +8,7 @@
 #include "drivetrain/couplings/rubber_coupling.h"
 #include "engine/matrices/linear_algebra.h"
 #include "tests/published/published.h"
+#include "tests/support/eigen_solutions.h"
 #include "tests/support/elements.h"
 
 namespace kurbel::flexible_coupling_test {
@@ -282,7 +282,7 @@ TEST(RubberCoupling, CreepsUnderASuddenTorqueAsItsEigenvaluesSay) {
   const double rest = torque / rubber.k;  // θ = z₁ = z₂ in the end
   const Eigen::Vector4cd from_rest(-rest, 0, -rest, -rest);
   const auto [lambda, modes] = eigenpairs(a);
-  const Eigen::VectorXcd weights = modes.partialPivLu().solve(from_rest);
+  const Eigen::VectorXcd weights = test::solved_complex(modes, from_rest);
   Eigen::VectorXcd x = Eigen::VectorXcd::Zero(4);
   for (Eigen::Index i = 0; i < 4; ++i) x += weights[i] * std::exp(lambda[i] * t) * modes.col(i);
   const Result r = run(on_frame(rubber.coupling(), inertia, torque, "until = \"0.7 s\""));

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -13,6 +12,7 @@
 #include "studies/modes/modes.h"
 #include "studies/steady/steady.h"
 #include "tests/published/published.h"
+#include "tests/support/eigen_solutions.h"
 #include "tests/support/elements.h"
 
 namespace kurbel::lagging_motor_test {
@@ -50,7 +50,7 @@ class SmallOscillations {
   Complex two_axis(double frequency) const {
     const Complex i_omega{0, 2 * pi * frequency};
     const Eigen::Matrix4cd system = i_omega * Eigen::Matrix4cd::Identity() - by_current_.cast<Complex>();
-    return torque_by_.cast<Complex>().dot(system.lu().solve(by_speed_.cast<Complex>()));
+    return torque_by_.cast<Complex>().dot(test::solved_complex(system, by_speed_.cast<Complex>()));
   }
   double slope() const {
     ShaftState<Dual<1>> x{0, {}, Dual<1>::input(omega_, 0), 0, 1};

@@ -1,11 +1,10 @@
 // Eigenvalues of a product of matrices by a periodic QR iteration: against what the product is made of, and against the
 // product in extended precision where that can hold it.
 #include "engine/matrices/periodic_schur.h"
+#include "tests/support/eigen_solutions.h"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -47,7 +46,7 @@ TEST(PeriodicSchur, EigenvaluesSpreadOver200OrdersComeOutToTheirLastDigits) {
     const PeriodicSchur schur(factors);
     MatrixXd product = MatrixXd::Identity(6, 6);
     for (const MatrixXd& factor : factors) product = factor * product;
-    Eigen::VectorXd naive = product.eigenvalues().cwiseAbs();
+    Eigen::VectorXd naive = test::eigen_solution(product).values.cwiseAbs();
     std::sort(naive.begin(), naive.end(), std::greater<>());
     for (std::size_t j = 0; j < ln.size(); ++j) {
       const PeriodicEigenvalue& found = schur.eigenvalues()[j];
@@ -83,22 +82,18 @@ TEST(PeriodicSchur, PairsThatTurnKeepTheirPhaseWhereTheyHaveAllButVanished) {
 
 // Of few factors without extremes, the product in extended precision is right; what differs lies within what is stated.
 TEST(PeriodicSchur, IsTheProductsSpectrumWhereThatIsMild) {
-  using Long = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
   std::mt19937 random(3);
   double worst = 0;
   for (int trial = 0; trial < 200; ++trial) {
     const Index n = 1 + trial % 8;
     const int count = 1 + trial / 8 % 6;
     std::vector<MatrixXd> factors;
-    Long product = Long::Identity(n, n);
+    test::LongMatrix product = test::LongMatrix::Identity(n, n);
     for (int k = 0; k < count; ++k) {
       factors.push_back(random_matrix(random, n));
       product = factors.back().cast<long double>() * product;
     }
-    std::vector<Complex> expected;
-    const Eigen::EigenSolver<Long> solver(product, false);
-    for (const std::complex<long double>& value : solver.eigenvalues())
-      expected.emplace_back(static_cast<double>(value.real()), static_cast<double>(value.imag()));
+    const std::vector<Complex> expected = test::eigenvalues_of(product);
     const PeriodicSchur schur(factors);
     for (const PeriodicEigenvalue& e : schur.eigenvalues()) {
       const Complex found = std::polar(std::exp(e.log_magnitude), e.phase);

@@ -1,9 +1,9 @@
 // rod_modes_test.cpp — the integrals of a flexible rod's shape functions against quadrature and a rod's own vibrations.
 #include "mechanisms/deforming/rod_flexibility.h"
+#include "tests/support/eigen_solutions.h"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -61,10 +61,10 @@ TEST(RodModes, StretchingDecaysWithItsDampingRatio) {
       mass_of(i, j) = modes.mass[m + a][m + b], stiffness_of(i, j) = modes.stiffness[m + a][m + b];
       damping_of(i, j) = modes.damping[m + a][m + b];
     }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> solver(stiffness_of, mass_of);
-  const double omega = std::sqrt(solver.eigenvalues()[0]);
+  const test::PairSolution solution = test::solution_of_pair(stiffness_of, mass_of);
+  const double omega = std::sqrt(solution.values[0]);
   EXPECT_NEAR(omega, pi / 2 / length * std::sqrt(rod.modulus * rod.area / (mass / length)), 0.006 * omega);
-  const Eigen::Vector2d shape = solver.eigenvectors().col(0);  // of modal mass 1
+  const Eigen::Vector2d shape = solution.vectors.col(0);  // of modal mass 1
   EXPECT_NEAR(shape.dot(damping_of * shape) / (2 * omega), rod.damping_ratio, 0.006 * rod.damping_ratio);
 }
 

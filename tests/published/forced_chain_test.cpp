@@ -2,9 +2,8 @@
 // against the closed form (tests/cases/el04_forced_chain.toml).
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
-
 #include "tests/published/published.h"
+#include "tests/support/eigen_solutions.h"
 #include "tests/support/validation.h"
 
 namespace kurbel::forced_chain_test {
@@ -87,7 +86,7 @@ Eigen::VectorXcd harmonic_response(const Eigen::MatrixXd& j, const Eigen::Matrix
                                    const Eigen::VectorXd& f, double omega) {
   const Eigen::MatrixXcd dynamic = (k - omega * omega * j).cast<std::complex<double>>() +
                                    std::complex<double>(0, omega) * c.cast<std::complex<double>>();
-  return dynamic.partialPivLu().solve(f.cast<std::complex<double>>());
+  return test::solved_complex(dynamic, f.cast<std::complex<double>>());
 }
 
 // x = Im(X e^{iωt}) at t = 0, as the start of components.

@@ -3,10 +3,9 @@
 // (tests/cases/tv01 … tv03).
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
-
 #include "studies/modes/modes.h"
 #include "tests/published/published.h"
+#include "tests/support/eigen_solutions.h"
 #include "tests/support/validation.h"
 
 namespace kurbel::torsional_calculations_test {
@@ -280,7 +279,7 @@ std::vector<double> Crankshaft::sums_of_amplitudes(double n) const {
       dynamic(i, i) += std::complex<double>(-w * w * j[static_cast<std::size_t>(i)], fires ? w * drag : 0);
       if (fires) force[i] = amplitude * std::polar(1.0, -0.5 * h * fires_at[i - 2] * two_pi / 360);
     }
-    const Eigen::VectorXcd q = dynamic.partialPivLu().solve(force);
+    const Eigen::VectorXcd q = test::solved_complex(dynamic, force);
     for (Eigen::Index s = 0; s < 8; ++s)
       sums[static_cast<std::size_t>(s)] += k[static_cast<std::size_t>(s)] * std::abs(q[s + 1] - q[s]);
   }

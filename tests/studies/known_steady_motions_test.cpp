@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -11,6 +10,7 @@
 
 #include "studies/steady/steady.h"
 #include "tests/published/published.h"
+#include "tests/support/eigen_solutions.h"
 #include "tests/support/thorough.h"
 
 namespace kurbel::test::known_steady_motions_test {
@@ -72,7 +72,7 @@ struct Chain {
     z(n - 1, n - 1) += Complex(spring_to_ground, w * damper_to_ground);
     Eigen::VectorXcd force = Eigen::VectorXcd::Zero(n);
     force[0] = amplitude;
-    return z.fullPivLu().solve(force);
+    return solved_complex(z, force);
   }
 };
 

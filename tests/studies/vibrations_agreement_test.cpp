@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -15,6 +14,7 @@
 #include "tests/agreement/agreement.h"
 #include "tests/agreement/forced_vibration.h"
 #include "tests/agreement/free_vibration.h"
+#include "tests/support/eigen_solutions.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::agreement::vibrations_agreement_test {
@@ -172,7 +172,7 @@ frequency = "11 Hz"
   Eigen::Matrix2cd dynamic;  // of the angles
   dynamic << 0.5 * s * s + 1.5 * s + spring_torque, -spring_torque, -spring_torque,
       0.6 * s * s + 1.25 * s + spring_torque;
-  const Eigen::Vector2cd q = dynamic.partialPivLu().solve(Eigen::Vector2cd(0, 5));
+  const Eigen::Vector2cd q = test::solved_complex(dynamic, Eigen::Vector2cd(0, 5));
   EXPECT_NEAR(std::abs(vibrations[0].harmonic[1]), std::abs(spring_torque * (q[0] - q[1])), 1e-5);
   EXPECT_NEAR(std::abs(vibrations[0].harmonic[2]), 0, 1e-6);
   EXPECT_NEAR(vibrations[0].mean, 60 * 1.25 / 2.75, 1e-5);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
+#include <vector>
 
 namespace kurbel::test {
 
@@ -12,9 +14,17 @@ struct EigenSolution {
   Eigen::MatrixXcd vectors;
 };
 EigenSolution eigen_solution(const Eigen::MatrixXd& a);
-// λ of K x = λ M x for symmetric K and positive definite M, ascending.
-Eigen::VectorXd eigenvalues_of_pair(const Eigen::MatrixXd& k, const Eigen::MatrixXd& m);
+using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+std::vector<std::complex<double>> eigenvalues_of(const LongMatrix& a);
+// K V = M V diag(λ) for symmetric K and positive definite M; λ ascending, Vᵀ M V = 1.
+struct PairSolution {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;
+};
+PairSolution solution_of_pair(const Eigen::MatrixXd& k, const Eigen::MatrixXd& m);
 Eigen::VectorXd solved(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 Eigen::VectorXcd solved_complex(const Eigen::MatrixXcd& a, const Eigen::VectorXcd& b);
+// x of the least |a x − b|.
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
 }  // namespace kurbel::test
