@@ -350,9 +350,7 @@ std::string keys_in_markdown() {
       "shaft (of one with two shafts, `.in`).\n\n"
       "## `[[figure]]`\n\nNamed by its parts, `time_above_torque.40kN*m.main_coupling`, `step_mean_speed.2.motor`, "
       "`run_up_rms_torque.motor`, and then swept, compared and explained as every figure. Its error is measured by the "
-      "other runs, and crossings of a "
-      "level "
-      "are located on the solution within the steps.\n\n" +
+      "other runs, and crossings of a level are located on the solution within the steps.\n\n" +
       rows(figure_keys()) + "\n## Components\n\n";
   Printed printed;
   for (const Kind& kind : all_kinds()) text += chapter(kind, "###", printed);
