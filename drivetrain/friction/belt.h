@@ -32,8 +32,12 @@ inline double open_belt_wrap(double diameter_1, double diameter_2, double centre
 
 struct Belt {
   enum Mode : int { slips_back = -1, grips = 0, slips_ahead = 1 };
-  static constexpr ConnectionTraits is{
-      .spring_takes_motion = true, .reports_loss = true, .guards = 2, .states = 1, .described = true};
+  static constexpr ConnectionTraits is{.spring_takes_motion = true,
+                                       .reports_loss = true,
+                                       .guards = 2,
+                                       .contact_modes = true,
+                                       .states = 1,
+                                       .described = true};
   double stiffness = 0;    // k [N·m/rad], > 0
   double damping = 0;      // c [N·m·s/rad], ≥ 0
   double limit = 0;        // M [N·m], > 0

@@ -135,7 +135,13 @@ class ConnectionPool final : public ElementPool {
     }
   }
   GuardLabel label(int guard, const Instant& now) const override {
-    if constexpr (Guarded<E>) return {owner(guard).more.component, mode_text(owner(guard), now.mode)};
+    if constexpr (ContactModes<E>) {
+      const int mode = now.mode[owner(guard).more.mode];
+      return {owner(guard).more.component, mode_text(owner(guard), now.mode),
+              mode == 0 ? EventKind::lock : EventKind::slip, mode};
+    } else if constexpr (Guarded<E>) {
+      return {owner(guard).more.component, mode_text(owner(guard), now.mode)};
+    }
     return {};
   }
   void first_modes(const Instant& now, int* mode) const override {

@@ -63,6 +63,8 @@
 //     int next_mode(x, int which) const;                     after guard `which` fell through zero
 //     std::string mode_name(int mode) const;                 for the list of events; empty: not listed
 // .regularised_mode = m, with guards: a mode without guards, used if events chatter
+// .contact_modes, with guards, of a connection: its modes are −1, 0 and 1, slip backwards, grip and slip forwards of a
+//     friction contact between an internal state and a shaft; its events are those of contacts, lock and slip
 // .states = n   internal states x.own[0 … n−1]
 //     template <class T> void rates(const X<T>& x, T* rate) const;   their time derivatives
 //     void first_states(x, double* own) const;               at the start
@@ -161,6 +163,7 @@ struct ConnectionTraits {
   bool reports_loss = false;
   int guards = 0;
   std::optional<int> regularised_mode = {};
+  bool contact_modes = false;
   int states = 0;
   bool described = false;
   bool other_forms = false;
@@ -194,6 +197,8 @@ template <class E>
 concept Directional = bool(E::is.directional);
 template <class E>
 concept Guarded = (E::is.guards > 0);
+template <class E>
+concept ContactModes = bool(E::is.contact_modes);
 template <class E>
 concept Slipping = bool(E::is.slips);
 template <class E>

@@ -96,6 +96,7 @@ struct TorqueSlope {
 struct GuardLabel {
   std::string component, what;  // description of the event
   EventKind kind = EventKind::law;
+  std::optional<double> value = {};  // direction of a slip
 };
 
 class ElementPool {

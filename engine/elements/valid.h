@@ -26,7 +26,7 @@ struct Names {
   int turned_mode;  // of a load on a mechanism's output
   // Traits are declared in `is`; a member with such a name would have no effect.
   int slips, springless, commanded, uses_angle, uses_speeds, turns_unevenly, spring_takes_motion, reports_loss;
-  int guards, regularised_mode, states, described, other_forms;
+  int guards, regularised_mode, contact_modes, states, described, other_forms;
   int account, directional, reversible, timed, periodic, settles, stores, feels_switching, starts_anew;
 };
 template <class E>
@@ -44,6 +44,7 @@ concept SaysTraitsInIs = requires {
   &Free<E>::reports_loss;
   &Free<E>::guards;
   &Free<E>::regularised_mode;
+  &Free<E>::contact_modes;
   &Free<E>::states;
   &Free<E>::described;
   &Free<E>::other_forms;

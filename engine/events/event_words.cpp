@@ -56,7 +56,8 @@ Event law_event(double t, const GuardLabel& before, const GuardLabel& now, bool 
           .component = now.component,
           .what = now.what,
           .from = edge_over_angle ? "" : before.what,
-          .kind = impact ? EventKind::impact : now.kind};
+          .kind = impact ? EventKind::impact : now.kind,
+          .value = now.value};
 }
 
 Event contact_event(double t, const Contact& contact, int before, int now) {

@@ -141,7 +141,7 @@ class ContactJudge {
     double first = 0, slipping = 0;
     std::optional<double> since;
     for (const Event& event : outcome_.events) {
-      const bool slips = event.what.starts_with("slips"), ends = event.kind == EventKind::lock || event.what == "grips";
+      const bool slips = event.kind == EventKind::slip, ends = event.kind == EventKind::lock;
       if (event.component != belt || !(slips || ends)) continue;
       slipping += event.t - since.value_or(event.t);
       since = slips ? std::optional(event.t) : std::nullopt;

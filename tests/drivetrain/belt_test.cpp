@@ -129,7 +129,10 @@ TEST(ElasticBelt, GripsAgainAfterAPulse) {
       ASSERT_TRUE(r.complete) << r.diagnosis;
       ASSERT_GE(r.events.size(), 3u);
       EXPECT_EQ(r.events[0].what, sense > 0 ? "slips" : "slips backwards");
+      EXPECT_EQ(r.events[0].kind, EventKind::slip);
+      EXPECT_EQ(r.events[0].value, sense);
       EXPECT_EQ(r.events.back().what, "grips");
+      EXPECT_EQ(r.events.back().kind, EventKind::lock);
       EXPECT_GT(sense * test::series(r, "slipped_angle.belt").back(), 0.01);
       EXPECT_LE(std::abs(figure(r, "peak_torque.belt")), limit * (1 + 1e-9));
       EXPECT_LE(r.energy.relative, 1e-8);
