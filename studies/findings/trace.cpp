@@ -1,6 +1,7 @@
 // trace.cpp — samples within each step; a full trace is thinned to half.
 #include "studies/findings/trace.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/numerics/roots.h"
@@ -19,6 +20,14 @@ void push(Trace& trace, double x, double y) {
 }
 
 }  // namespace
+
+double Trace::at(double place) const {
+  const auto after = std::lower_bound(x.begin(), x.end(), place);
+  if (after == x.begin()) return y.front();
+  if (after == x.end()) return y.back();
+  const auto i = static_cast<std::size_t>(after - x.begin());
+  return y[i - 1] + (y[i] - y[i - 1]) * (place - x[i - 1]) / (x[i] - x[i - 1]);
+}
 
 TraceRecorder::TraceRecorder(const Model& model) : model_(&model), sources_(model) {
   for (Channel& channel : channels_of(

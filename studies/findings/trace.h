@@ -18,6 +18,7 @@ struct Trace {
   std::vector<double> x, y;
   QuantityKind what = {};
   std::string of = {};
+  double at(double x) const;  // straight between the points, which ascend in x; the first or the last value beyond them
 };
 
 // One whole cycle of the reduction link; the traces run over its angle from 0 [rad].

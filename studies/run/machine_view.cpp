@@ -24,21 +24,11 @@ constexpr std::ptrdiff_t ends_shown = 7;
 constexpr double shown_twist = 1.1;  // of the largest one after enlargement [rad]
 constexpr double shown_bend = 0.12;  // of the rod's length
 
-// Straight between the points; x ascends.
-double value_at(const Trace& trace, double x) {
-  const auto upper = std::upper_bound(trace.x.begin(), trace.x.end(), x);
-  if (upper == trace.x.begin()) return trace.y.front();
-  if (upper == trace.x.end()) return trace.y.back();
-  const auto i = static_cast<std::size_t>(upper - trace.x.begin());
-  const double share = (x - trace.x[i - 1]) / (trace.x[i] - trace.x[i - 1]);
-  return trace.y[i - 1] + share * (trace.y[i] - trace.y[i - 1]);
-}
-
 std::vector<double> sampled(const Trace* trace, const std::vector<double>& time) {
   std::vector<double> values;
   if (!trace || trace->x.empty()) return values;
   values.reserve(time.size());
-  for (const double t : time) values.push_back(value_at(*trace, t));
+  for (const double t : time) values.push_back(trace->at(t));
   return values;
 }
 
@@ -259,11 +249,11 @@ MachineView machine_view(const std::vector<const Result*>& results) {
   double end = HUGE_VAL;
   for (const Result* r : results) end = std::min(end, r->traces->find("angle")->x.back());
   const Trace& angle = *front.traces->find("angle");
-  const double turns = std::abs(value_at(angle, end) - angle.y.front()) / (2 * std::numbers::pi);
+  const double turns = std::abs(angle.at(end) - angle.y.front()) / (2 * std::numbers::pi);
   double begin = angle.x.front();
   if (turns > turns_shown)
     for (std::size_t i = 0;
-         i < angle.x.size() && std::abs(value_at(angle, end) - angle.y[i]) > 2 * std::numbers::pi * turns_shown; ++i)
+         i < angle.x.size() && std::abs(angle.at(end) - angle.y[i]) > 2 * std::numbers::pi * turns_shown; ++i)
       begin = angle.x[i];
   const int frames = static_cast<int>(
       std::clamp(frames_per_turn * turns, 1.0 * fewest_frames, 1.0 * most_frames));  // of 1e12 turns, too

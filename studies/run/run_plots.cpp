@@ -163,14 +163,7 @@ std::optional<Plot> tachogram(const Results& results, const std::string& channel
 // A trace interpolated at the abscissae of another one.
 std::vector<double> at_places(const Trace& trace, const std::vector<double>& angles) {
   std::vector<double> values;
-  for (const double angle : angles) {
-    const auto after = std::lower_bound(trace.x.begin(), trace.x.end(), angle);
-    const auto i = static_cast<std::size_t>(after - trace.x.begin());
-    const bool inside = i > 0 && i < trace.x.size() && trace.x[i] > trace.x[i - 1];
-    const double part = inside ? (angle - trace.x[i - 1]) / (trace.x[i] - trace.x[i - 1]) : 0;
-    values.push_back(inside ? trace.y[i - 1] + part * (trace.y[i] - trace.y[i - 1])
-                            : trace.y[std::min(i, trace.y.size() - 1)]);
-  }
+  for (const double angle : angles) values.push_back(trace.at(angle));
   return values;
 }
 

@@ -152,15 +152,6 @@ const CycleTraces* whole_cycle(const SteadyCycle& c) {
   return c.traces && !c.traces->last_cycles.empty() ? &c.traces->last_cycles.back() : nullptr;
 }
 
-double at_angle(const Trace& trace, double angle) {
-  const auto after = std::lower_bound(trace.x.begin(), trace.x.end(), angle);
-  if (after == trace.x.begin()) return trace.y.front();
-  if (after == trace.x.end()) return trace.y.back();
-  const auto i = static_cast<std::size_t>(after - trace.x.begin());
-  const double width = trace.x[i] - trace.x[i - 1];
-  return width > 0 ? trace.y[i - 1] + (trace.y[i] - trace.y[i - 1]) * (angle - trace.x[i - 1]) / width : trace.y[i];
-}
-
 DataTable cycle_data(const SteadyCycle& c) {
   constexpr int rows = 720;
   std::vector<double> angles;
@@ -170,7 +161,7 @@ DataTable cycle_data(const SteadyCycle& c) {
   for (const Trace& t : whole_cycle(c)->traces)
     if (!t.name.starts_with(measured_trace("")))
       data.in_file(
-          t.name, t.unit, [&t](double angle) { return at_angle(t, angle); }, 10);
+          t.name, t.unit, [&t](double angle) { return t.at(angle); }, 10);
   return data.data();
 }
 
@@ -228,7 +219,7 @@ std::optional<Plot> power_over_angle(const SteadyStudy& s, const std::string& mo
     const Trace *torque = trace_of(c, "torque." + motor), *speed = trace_of(c, "speed." + motor);
     if (!torque || !speed) continue;
     Series& power = plot.series.emplace_back(over_degrees(c.label, role_of(c), *torque));
-    for (std::size_t i = 0; i < power.y.size(); ++i) power.y[i] *= at_angle(*speed, torque->x[i]);
+    for (std::size_t i = 0; i < power.y.size(); ++i) power.y[i] *= speed->at(torque->x[i]);
   }
   if (plot.series.empty()) return {};
   return in_readable_unit(std::move(plot), "W");
