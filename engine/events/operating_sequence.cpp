@@ -73,9 +73,7 @@ void OperatingSequence::take(Modes& modes, double t, std::span<const double> y, 
   for (std::size_t taken = 0; taken <= sequence.steps.size() && modes.next_step < sequence.steps.size(); ++taken) {
     const SequenceStep& step = sequence.steps[modes.next_step];
     for (const std::string& component : step.set) {
-      const auto is = [&](const CommandTarget& target) { return target.component == component; };
-      const auto c = std::find_if(model_->commands.begin(), model_->commands.end(), is) - model_->commands.begin();
-      Command& command = modes.command[static_cast<std::size_t>(c)];
+      Command& command = modes.command[at(model_->command_of(component))];
       const double value = command.at(t, sequence);
       if (!step.law.empty())
         command = follow(static_cast<int>(modes.next_step), step.law, t);

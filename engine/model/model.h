@@ -186,6 +186,8 @@ struct Model {
   bool has_memory() const;
   bool has_continuous_shafts() const;  // elastic ones; for their accuracy see cut_continuous_shafts
   std::string node_label(int node) const;
+  // Place among the commands of a component that the sequence sets; −1: none.
+  int command_of(const std::string& component) const;
   // Names of all elastic joints for reports: the component, with a number if it has several; the middle joint of a
   // continuous shaft has the name of the shaft.
   std::vector<std::string> joint_names() const;

@@ -24,13 +24,6 @@ int tracked(Model& m, int node) {
   return static_cast<int>(m.angles.size()) - 1;
 }
 
-// A component that the sequence sets: its place among the commands, or −1.
-int command_of(const Model& m, const std::string& component) {
-  const auto is = [&](const CommandTarget& target) { return target.component == component; };
-  const auto known = std::find_if(m.commands.begin(), m.commands.end(), is);
-  return known == m.commands.end() ? -1 : static_cast<int>(known - m.commands.begin());
-}
-
 // Loads of a mechanism by name: parts of a component that can be switched separately.
 std::vector<std::string> parts_of(const Network& net, const std::string& component) {
   std::vector<std::string> parts;
@@ -48,7 +41,7 @@ void list_commands(Model& m) {
   for (const SequenceStep& step : m.scene.sequence.steps)
     for (const std::string& said : step.set) {
       const std::string component = component_of(said);
-      if (command_of(m, component) >= 0) continue;
+      if (m.command_of(component) >= 0) continue;
       m.commands.push_back({component, {}, {}});
       for (const std::string& part : parts_of(m.network, component)) m.commands.push_back({part, {}, {}});
     }
@@ -89,7 +82,7 @@ void place_connections(Model& m, PoolSet& pools) {
     ConnectionExtras extras{.own = place_internal_states(m, joint.component, joint.element->internal_states),
                             .component = joint.component};
     if (joint.element->is.guards > 0) extras.mode = static_cast<int>(m.mode_slots++);
-    if (joint.element->is.commanded) extras.command = command_of(m, joint.component);
+    if (joint.element->is.commanded) extras.command = m.command_of(joint.component);
     if (joint.element->is.uses_angle) extras.angle = tracked(m, joint.a);
     joint.element->place(pools, {static_cast<int>(i), e.shaft_a, e.shaft_b, e.gain_a, e.gain_b, loss}, extras);
   }
@@ -114,7 +107,7 @@ void place_on_shafts(Model& m, PoolSet& pools) {
     ports.mode = static_cast<int>(m.mode_slots);
     m.mode_slots += at(e.element->modes);
     ports.own = place_internal_states(m, e.component, e.element->internal_states);
-    ports.command = command_of(m, e.component);
+    ports.command = m.command_of(e.component);
     if (ports.command >= 0 && !e.element->is.commanded)
       m.commands[at(ports.command)].switched.push_back(static_cast<int>(i));
     if (ports.command >= 0 && e.element->opens_at_zero)
@@ -201,6 +194,12 @@ void check_sequence(Compilation& c) {
 
 }  // namespace
 
+int Model::command_of(const std::string& component) const {
+  for (std::size_t c = 0; c < commands.size(); ++c)
+    if (commands[c].component == component) return static_cast<int>(c);
+  return -1;
+}
+
 void track_angles(Compilation& c) {
   Model& m = c.model;
   m.reduction_angle = tracked(m, m.reduction_node);
@@ -214,7 +213,7 @@ void place_elements(Compilation& c) {
   set_whole_loads(m);
   list_commands(m);
   for (PrescribedSpeed& given : m.network.prescribed)
-    if (!given.follows.empty()) given.command = command_of(m, given.follows);
+    if (!given.follows.empty()) given.command = m.command_of(given.follows);
   PoolSet pools;
   place_connections(m, pools);
   account_for_relations(m);

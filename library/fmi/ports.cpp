@@ -144,10 +144,9 @@ std::shared_ptr<const Model> model_of(ExportedMachine& machine, const Scene& giv
 std::vector<std::size_t> commands_of(const ExportedMachine& machine, const Model& model) {
   std::vector<std::size_t> places;
   for (const ExportedInput& input : machine.inputs) {
-    const auto is = [&](const CommandTarget& target) { return target.component == input.target(); };
-    const auto found = std::find_if(model.commands.begin(), model.commands.end(), is);
-    if (found == model.commands.end()) throw std::invalid_argument(fmt::format("\"{}\" takes no command", input.of));
-    places.push_back(static_cast<std::size_t>(found - model.commands.begin()));
+    const int command = model.command_of(input.target());
+    if (command < 0) throw std::invalid_argument(fmt::format("\"{}\" takes no command", input.of));
+    places.push_back(static_cast<std::size_t>(command));
   }
   return places;
 }

@@ -94,9 +94,8 @@ class Judge {
   }
   // Command in force at the end; 1 if there is none.
   double command_of(const std::string& component) const {
-    for (std::size_t c = 0; c < m_.commands.size(); ++c)
-      if (m_.commands[c].component == component) return equations_.modes().command[c].at(outcome_.t, m_.scene.sequence);
-    return 1;
+    const int c = m_.command_of(component);
+    return c < 0 ? 1 : equations_.modes().command[at(c)].at(outcome_.t, m_.scene.sequence);
   }
   // Torque that would move the link if nothing held it, reduced to it [N·m]: all except what opposes motion.
   double acts() const {

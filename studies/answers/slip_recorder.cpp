@@ -29,8 +29,7 @@ SlipRecorder::SlipRecorder(const Model& m) {
     if (!joint.slips || (kind != "clutch" && kind != "torque limiter" && kind != "one-way clutch")) continue;
     Joint made{.component = component, .kind = kind, .elastic = e};
     made.usual_speed = std::abs(joint.gain_a * m.shafts[at(joint.shaft_a)].speed_scale);
-    for (std::size_t c = 0; c < m.commands.size(); ++c)
-      if (m.commands[c].component == component) made.command = static_cast<int>(c);
+    made.command = m.command_of(component);
     joints_.push_back(std::move(made));
   }
 }

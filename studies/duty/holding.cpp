@@ -27,8 +27,7 @@ std::vector<Holder> holders_of(const Model& m) {
     Holder h{.component = component, .elastic = static_cast<int>(e), .joint = joint};
     h.capacity = m.network.joints[at(joint)].element->capacity;
     h.scale = m.torque_scale / m.scale_ratio[at(m.network.joints[at(joint)].a)];
-    for (std::size_t c = 0; c < m.commands.size(); ++c)
-      if (m.commands[c].component == component) h.command = static_cast<int>(c);
+    h.command = m.command_of(component);
     list.push_back(h);
   }
   return list;

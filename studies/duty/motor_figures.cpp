@@ -8,11 +8,6 @@
 namespace kurbel {
 namespace {
 
-bool is_commanded(const Model& m, const MotorTorque& motor) {
-  return std::any_of(m.commands.begin(), m.commands.end(),
-                     [&](const CommandTarget& c) { return c.component == motor.component; });
-}
-
 // Synchronous speed of an induction motor at the mains with a static curve whose field is never reversed; empty: no
 // heat of slip is given.
 std::optional<double> synchronous_speed(const Model& m, const MotorTorque& motor) {
@@ -20,8 +15,9 @@ std::optional<double> synchronous_speed(const Model& m, const MotorTorque& motor
   const bool transient =
       std::any_of(m.internal_states.begin(), m.internal_states.end(),
                   [&](const PlacedInternalState& own) { return own.component == motor.component && !own.state.lags; });
-  return data && !data->by_converter && !transient && !is_commanded(m, motor) ? std::optional(data->synchronous_speed)
-                                                                              : std::nullopt;
+  return data && !data->by_converter && !transient && m.command_of(motor.component) < 0
+             ? std::optional(data->synchronous_speed)
+             : std::nullopt;
 }
 
 // Null: no law gives the current from the torque, whose sign changes for a reversed series motor.
@@ -177,7 +173,7 @@ class OneMotor {
 
 // Between events.
 bool is_of_speed_alone(const Model& m, const MotorTorque& motor) {
-  return !motor.prescribed && !is_commanded(m, motor) &&
+  return !motor.prescribed && m.command_of(motor.component) < 0 &&
          std::all_of(motor.elements.begin(), motor.elements.end(), [&](std::size_t e) {
            const AnyShaftElement& law = *m.network.elements[e].element;
            return law.is.states == 0 && !law.is.uses_angle && !law.uses_time;

@@ -171,10 +171,9 @@ std::span<const double> OutputLoads::shares(double phi, const CrankMotion& motio
 
 ActingLoads acting_loads(const Model& model, std::size_t element, const Instant& now) {
   const Network::ShaftElement& e = model.network.elements[element];
-  const auto is = [&](const CommandTarget& target) { return target.component == e.component; };
-  const auto reported = std::find_if(model.commands.begin(), model.commands.end(), is);
-  if (reported == model.commands.end()) return {};
-  const double* command = now.command + (reported - model.commands.begin());
+  const int of_element = model.command_of(e.component);
+  if (of_element < 0) return {};
+  const double* command = now.command + of_element;
   ActingLoads on;
   for (std::size_t k = 0; k < mechanism_of(e)->mechanism().loads.size(); ++k)
     on.push_back(command[0] > 0.5 && command[k + 1] > 0.5);

@@ -83,11 +83,8 @@ DataRangeRecorder::DataRangeRecorder(const Model& model) : model_(model) {
     Watched watched{range, {}, {}, {}, {}};
     for (std::size_t e = 0; e < model.network.elements.size(); ++e)
       if (model.network.elements[e].component == range.component) watched.elements.push_back(e);
-    const auto reported = std::find_if(model.commands.begin(), model.commands.end(), [&](const CommandTarget& target) {
-      return target.component == range.component;
-    });
-    if (range.part >= 0 && reported != model.commands.end())
-      watched.command = at(reported - model.commands.begin()) + 1 + at(range.part);
+    const int command = model.command_of(range.component);
+    if (range.part >= 0 && command >= 0) watched.command = at(command) + 1 + at(range.part);
     const auto shaft = at(model.shaft_of_node[at(range.node)]);
     const double gain = model.gain_of_node[at(range.node)];
     switch (range.over) {
@@ -135,10 +132,9 @@ void DataRangeRecorder::watch_laws() {
       ranges.limit(
           {.component = component, .of = "law", .over = DataRange::Over::time, .unit = "s", .at = steps[step].at},
           steps[step].law);
-      const auto reported = std::find_if(model_.commands.begin(), model_.commands.end(),
-                                         [&](const CommandTarget& target) { return target.component == component; });
-      if (reported == model_.commands.end()) continue;
-      const auto command = at(reported - model_.commands.begin());
+      const int of_component = model_.command_of(component);
+      if (of_component < 0) continue;
+      const auto command = at(of_component);
       for (DataRange& range : ranges.ranges)
         watch({std::move(range), {}, {}, {}, [&model = model_, command, step](const Modes& modes) {
                  return place_beside_law(model, command, step, modes);

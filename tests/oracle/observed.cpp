@@ -59,18 +59,13 @@ class Sampler final : public Observer {
   }
 
  private:
-  int command_of(const std::string& component) const {
-    for (std::size_t k = 0; k < m_.commands.size(); ++k)
-      if (m_.commands[k].component == component) return static_cast<int>(k);
-    return -1;
-  }
   void find_contacts() {
     for (std::size_t e = 0; e < m_.elastic.size(); ++e) {
       const ElasticJoint& joint = m_.elastic[e];
       const std::string& component = m_.network.joints[at(joint.joint)].component;
       if (!joint.slips) continue;
       Place place{.contact = {component, m_.network.kind_of(component)}, .joint = joint.joint};
-      place.elastic = static_cast<int>(e), place.command = command_of(component);
+      place.elastic = static_cast<int>(e), place.command = m_.command_of(component);
       place.contact.usual_speed = std::abs(joint.gain_a) * m_.shafts[at(joint.shaft_a)].speed_scale;
       place.contact.capacity = m_.network.joints[at(joint.joint)].element->capacity;
       places_.push_back(std::move(place));
@@ -89,7 +84,7 @@ class Sampler final : public Observer {
       const Network::ShaftElement& element = m_.network.elements[e];
       if (m_.network.kind_of(element.component) != "brake") continue;
       Place place{.contact = {element.component, "brake"}, .element = static_cast<int>(e)};
-      place.command = command_of(element.component);
+      place.command = m_.command_of(element.component);
       place.contact.usual_speed = m_.speed_scale * m_.scale_ratio[at(element.node)];
       places_.push_back(std::move(place));
     }
@@ -196,7 +191,7 @@ class Sampler final : public Observer {
       MotorSeen& seen = seen_.motors[i];
       seen.torque = motor.torque(s);
       seen.speed = m_.gain_of_node[at(motor.node)] * s.now.speed[m_.shaft_of_node[at(motor.node)]];
-      if (const int command = command_of(motor.component); command >= 0)
+      if (const int command = m_.command_of(motor.component); command >= 0)
         seen.command = equations.modes().command[at(command)].at(outcome.t, m_.scene.sequence);
       if (!motor.elements.empty() && std::none_of(motor.elements.begin(), motor.elements.end(),
                                                   [&](std::size_t e) { return equations.modes().active[e] != 0; }))
