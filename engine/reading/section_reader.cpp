@@ -219,9 +219,8 @@ Section read_section(const DocumentValue& table, const Kind& kind, const std::st
   known.insert(known.end(), passed_over.begin(), passed_over.end());
   for (const DocumentEntry& entry : table.entries) {
     if (std::find(passed_over.begin(), passed_over.end(), entry.key) != passed_over.end()) continue;
-    const auto key =
-        std::find_if(kind.keys.begin(), kind.keys.end(), [&](const Key& k) { return k.name == entry.key; });
-    if (key == kind.keys.end()) {
+    const Key* const key = kind.key(entry.key);
+    if (!key) {
       if (const auto near = nearest(entry.key, known)) meant.push_back(*near);
       messages.add(entry.at, fmt::format("{}: unknown key {}{}; allowed: {}", what, in_quotes(entry.key),
                                          suggestion(entry.key, known), listed(known, "and")));

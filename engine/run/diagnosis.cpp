@@ -66,9 +66,8 @@ std::vector<std::string> parameters_of(const Scene& scene, const std::string& co
   if (!section || !section->kind) return list;
   for (const Setting& setting : section->settings) {
     if (!setting.given || list.size() == parameters_reported) continue;
-    const auto& keys = section->kind->keys;
-    const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == setting.key; });
-    if (key == keys.end() || key->type != KeyType::quantity) continue;
+    const Key* const key = section->kind->key(setting.key);
+    if (!key || key->type != KeyType::quantity) continue;
     list.push_back(fmt::format("{} = {}", setting.key, with_unit(setting.number, key->unit, 4)));
   }
   return list;

@@ -13,11 +13,8 @@ namespace kurbel {
 
 bool has_parameters(const Section& section, const EffectFlag& effect) {
   for (const Setting& setting : section.settings) {
-    if (setting.given && section.kind) {
-      const auto& keys = section.kind->keys;
-      const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == setting.key; });
-      if (key != keys.end() && key->gives(effect.name)) return true;
-    }
+    if (setting.given && section.kind)
+      if (const Key* const key = section.kind->key(setting.key); key && key->gives(effect.name)) return true;
     for (const Section& nested : setting.sections)
       if (has_parameters(nested, effect)) return true;
   }

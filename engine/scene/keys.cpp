@@ -103,6 +103,12 @@ Kind elastic_between_shafts(std::string name, KeyDoc doc, std::vector<Key> keys,
   return kind;
 }
 
+const Key* Kind::key(std::string_view its_name) const {
+  for (const Key& key : keys)
+    if (key.name == its_name) return &key;
+  return nullptr;
+}
+
 std::string shortened_list(std::vector<std::string> names, std::string_view conjunction) {
   constexpr std::size_t most = 30;
   if (names.size() <= most) return listed(names, conjunction);

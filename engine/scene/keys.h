@@ -103,6 +103,8 @@ struct Kind {
   bool elastic = false;
   // Shafts in addition to "in" and "out" at which a branch may begin: "ring".
   std::vector<std::string> further_shafts = {};
+
+  const Key* key(std::string_view its_name) const;  // null: none
 };
 
 // Kinds of components by their common properties.

@@ -6,12 +6,6 @@
 namespace kurbel {
 namespace {
 
-const Key* key_of(const Section& section, const std::string& name) {
-  const auto key =
-      std::find_if(section.kind->keys.begin(), section.kind->keys.end(), [&](const Key& k) { return k.name == name; });
-  return key == section.kind->keys.end() ? nullptr : &*key;
-}
-
 // What stands for the whole of a named table.
 QuantityPlace first_quantity(const Section& section) {
   const Key& first = section.kind->keys.front();
@@ -34,12 +28,12 @@ QuantityPlace quantity_place(const std::vector<Section>& sections, const std::st
     const Setting* const setting = in->find(path.substr(begin, end - begin));
     if (!setting || !setting->given) return {};
     if (end == std::string::npos) {
-      const Key* const key = key_of(*in, setting->key);
+      const Key* const key = in->kind->key(setting->key);
       if (!key || key->type != KeyType::quantity) return {};
       return {setting, key};
     }
     begin = end + 1;
-    const Key* const key = key_of(*in, setting->key);
+    const Key* const key = in->kind->key(setting->key);
     if (key && key->type == KeyType::named) {
       const std::size_t next = path.find('.', begin);
       const std::string name = path.substr(begin, next - begin);

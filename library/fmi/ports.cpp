@@ -89,11 +89,10 @@ FoundNumber number_at(const Scene& scene, const std::string& path) {
   for (std::size_t k = 1; section && k < segments.size(); ++k) {
     const Setting* setting = section->find(segments[k].name);
     if (!setting) return {};
-    const auto is = [&](const Key& key) { return key.name == segments[k].name; };
-    const auto key = std::find_if(section->kind->keys.begin(), section->kind->keys.end(), is);
+    const Key* const key = section->kind->key(segments[k].name);
     if (k + 1 == segments.size()) {
-      if (key == section->kind->keys.end() || key->type != KeyType::quantity || segments[k].item > 0) return {};
-      return {setting, &*key};
+      if (!key || key->type != KeyType::quantity || segments[k].item > 0) return {};
+      return {setting, key};
     }
     const std::size_t item = segments[k].item > 0 ? segments[k].item - 1 : 0;
     section = item < setting->sections.size() ? &setting->sections[item] : nullptr;

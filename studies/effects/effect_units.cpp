@@ -52,9 +52,8 @@ std::vector<std::string> scale(Section& section, const Choice& chosen, double fa
   for (Setting& setting : section.settings) {
     for (Section& nested : setting.sections)
       for (const std::string& key : scale(nested, chosen, factor)) changed.push_back(setting.key + "." + key);
-    const std::vector<Key>& keys = section.kind->keys;
-    const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == setting.key; });
-    const Scales which = key == keys.end() ? Scales::nothing : chosen(*key, setting);
+    const Key* const key = section.kind->key(setting.key);
+    const Scales which = key ? chosen(*key, setting) : Scales::nothing;
     if (which == Scales::nothing || !setting.curve.by_formula.empty()) continue;  // a formula stays as it is
     multiply(setting, which, factor);
     if (setting.given) changed.push_back(setting.key);

@@ -12,9 +12,8 @@ namespace kurbel::test {
 // default stay.
 inline void erase_effect(Section& section, const std::string& effect) {
   std::erase_if(section.settings, [&](const Setting& setting) {
-    const auto& keys = section.kind->keys;
-    const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == setting.key; });
-    return key != keys.end() && key->gives(effect) && key->fallback.empty() && !key->required;
+    const Key* const key = section.kind->key(setting.key);
+    return key && key->gives(effect) && key->fallback.empty() && !key->required;
   });
   for (Setting& setting : section.settings)
     for (Section& nested : setting.sections) erase_effect(nested, effect);
