@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "engine/base/find_by.h"
 #include "engine/model/model.h"
 #include "engine/reading/read_scene.h"
 #include "engine/scene/document.h"
@@ -116,10 +117,7 @@ std::vector<std::pair<std::string, std::string>> Machine::figures() const {
   });
 }
 
-const FigureValue* FigureValues::find(const std::string& name) const {
-  const auto found = std::find_if(all_.begin(), all_.end(), [&](const FigureValue& v) { return v.name == name; });
-  return found == all_.end() ? nullptr : &*found;
-}
+const FigureValue* FigureValues::find(const std::string& name) const { return find_by(all_, &FigureValue::name, name); }
 
 const FigureValue& FigureValues::operator[](const std::string& name) const {
   if (const FigureValue* const found = find(name)) return *found;

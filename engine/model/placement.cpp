@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "engine/base/find_by.h"
 #include "engine/model/compile_steps.h"
 #include "engine/model/relations.h"
 #include "engine/numerics/deadline.h"
@@ -260,9 +261,8 @@ void list_motors(Model& m) {
     const Network::ShaftElement& element = m.network.elements[e];
     const Rated rated = element.element->rated;
     if (element.element->account != Account::driving || !(rated.torque > 0) || rated.speed == 0) continue;
-    const auto known = std::find_if(m.motors.begin(), m.motors.end(),
-                                    [&](const MotorTorque& motor) { return motor.component == element.component; });
-    if (known != m.motors.end())
+    auto* const known = find_by(m.motors, &MotorTorque::component, element.component);
+    if (known)
       known->elements.push_back(e);
     else
       m.motors.push_back({element.component, {e}, element.node, rated.torque, rated.speed});

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/find_by.h"
 #include "engine/matrices/elimination.h"
 #include "engine/matrices/linear_algebra.h"
 #include "engine/numerics/index.h"
@@ -40,9 +41,8 @@ void list_torques(const Network& network, const Network::Relation& relation, int
     term.taken = -sense * gain * taken_per_source;
     term.lost = k == 0 ? 0 : sense * (k == 1 ? gain : 1 + gain);
     const std::string name = torque_name(network, relation, k);
-    const auto known =
-        std::find_if(torques.begin(), torques.end(), [&](const GearTorque& t) { return t.name == name; });
-    if (known == torques.end())
+    auto* const known = find_by(torques, &GearTorque::name, name);
+    if (!known)
       torques.push_back({name, relation.node[at(k)], {term}});
     else if (k == 2)
       known->terms.push_back(term);  // the housing carries the reaction of every stage

@@ -1,9 +1,9 @@
 // effects_reader.cpp — [effects], and what of them a file leaves unsaid.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <set>
 
+#include "engine/base/find_by.h"
 #include "engine/reading/scene_reading.h"
 
 namespace kurbel {
@@ -67,9 +67,8 @@ void read_effects_table(SceneReading& r, std::set<std::string>& said) {
       continue;
     }
     const auto flags = effect_flags();
-    const auto known =
-        std::find_if(flags.begin(), flags.end(), [&](const EffectFlag& f) { return entry.key == f.name; });
-    if (known == flags.end()) {
+    const auto* const known = find_by(flags, &EffectFlag::name, entry.key);
+    if (!known) {
       std::vector<std::string> names = {"elasticity"};
       for (const EffectFlag& f : flags) names.emplace_back(f.name);
       r.refuse(entry.at, fmt::format("[effects]: unknown effect {}{}; allowed: {}", in_quotes(entry.key),

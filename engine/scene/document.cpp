@@ -14,6 +14,7 @@
 #include <cerrno>
 #include <system_error>
 
+#include "engine/base/find_by.h"
 #include "engine/scene/text.h"
 
 namespace kurbel {
@@ -67,8 +68,7 @@ DocumentValue convert(const toml::node& node, const std::string& file, int depth
 #endif
 
 const DocumentEntry* DocumentValue::find(std::string_view key) const {
-  const auto found = std::find_if(entries.begin(), entries.end(), [&](const DocumentEntry& e) { return e.key == key; });
-  return found == entries.end() ? nullptr : &*found;
+  return find_by(entries, &DocumentEntry::key, key);
 }
 
 std::string DocumentValue::describe() const {

@@ -7,6 +7,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "engine/base/find_by.h"
 #include "engine/scene/scene.h"
 
 namespace kurbel {
@@ -65,8 +66,8 @@ void switch_effect(const std::string& name, bool on, const Scene& scene, Effects
         effects.*(f.flag) = f.flag != &Effects::multibody;  // the same physics at many times the cost
     return;
   }
-  const auto known = std::find_if(flags.begin(), flags.end(), [&](const EffectFlag& f) { return name == f.name; });
-  if (known == flags.end()) {
+  const auto* const known = find_by(flags, &EffectFlag::name, name);
+  if (!known) {
     std::vector<std::string> names = {"none", "all", "elasticity"};
     for (const EffectFlag& f : flags) names.emplace_back(f.name);
     const std::string near = suggestion(name, names);

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
+#include "engine/base/find_by.h"
 #include "engine/scene/units.h"
 
 namespace kurbel {
@@ -103,11 +103,7 @@ Kind elastic_between_shafts(std::string name, KeyDoc doc, std::vector<Key> keys,
   return kind;
 }
 
-const Key* Kind::key(std::string_view its_name) const {
-  for (const Key& key : keys)
-    if (key.name == its_name) return &key;
-  return nullptr;
-}
+const Key* Kind::key(std::string_view its_name) const { return find_by(keys, &Key::name, its_name); }
 
 std::string shortened_list(std::vector<std::string> names, std::string_view conjunction) {
   constexpr std::size_t most = 30;
@@ -131,10 +127,7 @@ std::string listed(const std::vector<std::string>& names, std::string_view conju
   return text;
 }
 
-const Setting* Section::find(std::string_view key) const {
-  const auto found = std::find_if(settings.begin(), settings.end(), [&](const Setting& s) { return s.key == key; });
-  return found == settings.end() ? nullptr : &*found;
-}
+const Setting* Section::find(std::string_view key) const { return find_by(settings, &Setting::key, key); }
 
 const Setting& Section::operator[](std::string_view key) const {
   if (const Setting* setting = find(key)) return *setting;

@@ -1,7 +1,7 @@
 // quantity_place.cpp — a path through a component's tables.
 #include "engine/scene/quantity_place.h"
 
-#include <algorithm>
+#include "engine/base/find_by.h"
 
 namespace kurbel {
 namespace {
@@ -19,10 +19,8 @@ QuantityPlace first_quantity(const Section& section) {
 QuantityPlace quantity_place(const std::vector<Section>& sections, const std::string& path) {
   const std::size_t dot = path.find('.');
   if (dot == std::string::npos) return {};
-  const auto section =
-      std::find_if(sections.begin(), sections.end(), [&](const Section& s) { return s.name == path.substr(0, dot); });
-  if (section == sections.end()) return {};
-  const Section* in = &*section;
+  const Section* in = find_by(sections, &Section::name, path.substr(0, dot));
+  if (!in) return {};
   for (std::size_t begin = dot + 1;;) {
     const std::size_t end = path.find('.', begin);
     const Setting* const setting = in->find(path.substr(begin, end - begin));
@@ -36,11 +34,8 @@ QuantityPlace quantity_place(const std::vector<Section>& sections, const std::st
     const Key* const key = in->kind->key(setting->key);
     if (key && key->type == KeyType::named) {
       const std::size_t next = path.find('.', begin);
-      const std::string name = path.substr(begin, next - begin);
-      const auto named = std::find_if(setting->sections.begin(), setting->sections.end(),
-                                      [&](const Section& s) { return s.name == name; });
-      if (named == setting->sections.end()) return {};
-      in = &*named;
+      in = find_by(setting->sections, &Section::name, path.substr(begin, next - begin));
+      if (!in) return {};
       if (next == std::string::npos) return first_quantity(*in);
       begin = next + 1;
       continue;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "engine/base/find_by.h"
+
 namespace kurbel {
 namespace {
 
@@ -33,11 +35,7 @@ std::string Scene::heading() const {
   return text;
 }
 
-const Section* Scene::find(const std::string& name) const {
-  const auto found =
-      std::find_if(components.begin(), components.end(), [&](const Section& s) { return s.name == name; });
-  return found == components.end() ? nullptr : &*found;
-}
+const Section* Scene::find(const std::string& name) const { return find_by(components, &Section::name, name); }
 
 const std::vector<std::string>& methods_of(const std::string& model) {
   static const std::vector<std::string> reduced = {"auto",  "work",    "dopri5", "verner6", "dop853", "fehlberg8",

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/find_by.h"
 #include "engine/scene/keys.h"
 #include "engine/scene/messages.h"
 
@@ -189,10 +190,7 @@ class MatFile {
     }
   }
 
-  const Array* array(const std::string& name) const {
-    const auto found = std::find_if(arrays_.begin(), arrays_.end(), [&](const Array& a) { return a.name == name; });
-    return found == arrays_.end() ? nullptr : &*found;
-  }
+  const Array* array(const std::string& name) const { return find_by(arrays_, &Array::name, name); }
 
   std::vector<Column> columns_of(const std::string& wanted) const {
     std::vector<Column> list;

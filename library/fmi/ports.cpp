@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "drivetrain/kinds.h"
+#include "engine/base/find_by.h"
 #include "engine/model/network.h"
 #include "engine/reading/read_scene.h"
 #include "mechanisms/kinds/kinds.h"
@@ -52,11 +53,11 @@ std::vector<Segment> segments_of(const std::string& path) {
 
 void put_number(DocumentValue& table, std::span<const Segment> path, double value, const std::string& unit) {
   const std::string& name = path.front().name;
-  auto found = std::find_if(table.entries.begin(), table.entries.end(), [&](const auto& e) { return e.key == name; });
-  if (found == table.entries.end()) {
+  auto* found = find_by(table.entries, &DocumentEntry::key, name);
+  if (!found) {
     if (path.size() > 1) throw std::invalid_argument(fmt::format("the scene has no table \"{}\"", name));
     table.entries.push_back({name, table.at, {}});
-    found = table.entries.end() - 1;
+    found = &table.entries.back();
   }
   DocumentValue* to = &found->value;
   if (path.front().item > 0) {

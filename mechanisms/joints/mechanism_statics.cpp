@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/base/find_by.h"
 #include "engine/numerics/roots.h"
 
 namespace kurbel {
@@ -50,9 +51,7 @@ MechanismStatics::MechanismStatics(const MechanismData& data, MechanismJoints jo
 }
 
 const RubbingJoint* MechanismStatics::joint_data(const char* name) const {
-  const auto found = std::find_if(joints_.joints.begin(), joints_.joints.end(),
-                                  [name](const RubbingJoint& j) { return j.name == std::string_view(name); });
-  return found == joints_.joints.end() ? nullptr : &*found;
+  return find_by(joints_.joints, &RubbingJoint::name, std::string_view(name));
 }
 
 PlanarLinkage MechanismStatics::linkage(double& phi) const {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/find_by.h"
 #include "engine/scene/units.h"
 
 namespace kurbel {
@@ -40,11 +41,11 @@ std::vector<Series> method_series(const AccuracyStudy& study, std::size_t level,
   std::vector<Series> all;
   for (const MeasuredSetting& s : study.settings) {
     if (s.level != level || !(error(s) > 0)) continue;
-    auto found = std::find_if(all.begin(), all.end(), [&](const Series& x) { return x.name == s.method; });
-    if (found == all.end()) {
+    auto* found = find_by(all, &Series::name, s.method);
+    if (!found) {
       const Style style = style_of(s.method);
       all.push_back({.name = s.method, .role = style.role, .dashed = style.dashed, .points = true});
-      found = all.end() - 1;
+      found = &all.back();
     }
     found->add(error(s), 1e3 * s.seconds);
     found->labels.push_back(label_of(study, s));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/base/find_by.h"
 #include "engine/scene/units.h"
 #include "studies/advise/deviation.h"
 #include "studies/dictionary/dictionary.h"
@@ -83,10 +84,7 @@ class Adviser {
     return simulate(scene_, effects(on), label, runs_.options());
   }
   // Null: it was not run.
-  const TriedSet* known(const EffectSet& on) const {
-    const auto found = std::find_if(a_.tried.begin(), a_.tried.end(), [&](const TriedSet& t) { return t.on == on; });
-    return found == a_.tried.end() ? nullptr : &*found;
-  }
+  const TriedSet* known(const EffectSet& on) const { return find_by(a_.tried, &TriedSet::on, on); }
   const TriedSet& try_set(const EffectSet& on) {
     if (const TriedSet* before = known(on)) return *before;
     TriedSet set{{}, on, describe(a_.units, on)};

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "engine/base/find_by.h"
+
 namespace kurbel {
 namespace {
 
@@ -102,11 +104,10 @@ std::vector<WorkPeriod> work_periods(const Model& m, const Periods& periods, con
 void report_works(const Model& m, const std::vector<WorkPeriod>& periods, FigureReporter& report) {
   if (m.cycle == 0) return;
   for (const std::string name : names) {
-    const auto period =
-        std::find_if(periods.begin(), periods.end(), [&](const WorkPeriod& p) { return p.name == name; });
+    const auto* const period = find_by(periods, &WorkPeriod::name, name);
     const auto report_one = [&](const char* of, auto value) {
       report(Name::own("work_of_" + name, of), [&]() -> std::optional<Found> {
-        if (period == periods.end()) return {};
+        if (!period) return {};
         return value(*period);
       });
     };

@@ -1,4 +1,5 @@
 // effect_study_findings.cpp — effects ranked: what changes without each, what each adds, what each costs.
+#include "engine/base/find_by.h"
 #include "studies/effects/effect_study.h"
 
 #include <fmt/format.h>
@@ -76,9 +77,8 @@ Rows matrix(const EffectStudy& s) {
   table.people_see_it_if(!figures.empty()).only_for_people("change when omitted", words_of);
   for (const std::string& name : figures)
     table.only_for_people(name, [&](const OmittedEffect& l) {
-      const auto found =
-          std::find_if(l.changes.begin(), l.changes.end(), [&](const FigureChange& c) { return c.figure == name; });
-      return found == l.changes.end() ? "—" : percent(*found);
+      const auto* const found = find_by(l.changes, &FigureChange::figure, name);
+      return found ? percent(*found) : "—";
     });
   return table;
 }

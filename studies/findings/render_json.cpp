@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/find_by.h"
 #include "studies/findings/output.h"
 
 namespace kurbel {
@@ -10,11 +11,11 @@ namespace {
 
 // A repeated key replaces its earlier value.
 void put(Record& summary, const std::string& key, Value value) {
-  const auto said = std::find_if(summary.begin(), summary.end(), [&](const Field& field) { return field.key == key; });
-  if (said == summary.end())
-    summary.push_back({key, std::move(value)});
-  else
+  auto* const said = find_by(summary, &Field::key, key);
+  if (said)
     said->value = std::move(value);
+  else
+    summary.push_back({key, std::move(value)});
 }
 
 void report(Record& summary, const Rows& rows) {

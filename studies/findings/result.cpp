@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "engine/base/find_by.h"
 #include "studies/dictionary/dictionary.h"
 
 namespace kurbel {
@@ -15,8 +16,7 @@ Figure Figure::defined(Name name, double value, double scale) {
 }
 
 const Figure* find(const std::vector<Figure>& figures, std::string_view name) {
-  const auto found = std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.name == name; });
-  return found == figures.end() ? nullptr : &*found;
+  return find_by(figures, &Figure::name, name);
 }
 
 void FigureReporter::add(Name name, const Found& found) {

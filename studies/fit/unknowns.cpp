@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/base/find_by.h"
 #include "engine/scene/messages.h"
 #include "engine/scene/units.h"
 
@@ -189,10 +190,8 @@ std::vector<Unknown> parse_unknowns(const std::vector<std::string>& given, const
 CurveData* table_at(std::vector<Section>& sections, const std::string& path) {
   const std::size_t dot = path.find('.');
   if (dot == std::string::npos) return nullptr;
-  const auto section =
-      std::find_if(sections.begin(), sections.end(), [&](const Section& s) { return s.name == path.substr(0, dot); });
-  if (section == sections.end()) return nullptr;
-  Section* in = &*section;
+  Section* in = find_by(sections, &Section::name, path.substr(0, dot));
+  if (!in) return nullptr;
   for (std::size_t begin = dot + 1;;) {
     const std::size_t end = path.find('.', begin);
     const std::string key = path.substr(begin, end - begin);

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "drivetrain/couplings/coupling_keys.h"
+#include "engine/base/find_by.h"
 #include "engine/base/gauss.h"
 #include "engine/numerics/index.h"
 #include "engine/orbit/follow_period.h"
@@ -203,9 +204,8 @@ std::vector<LimitedJoint> joints_of(const Model& other, const std::vector<Limite
   const std::vector<LimitedJoint> known = limited_joints(other);
   std::vector<LimitedJoint> found;
   for (const LimitedJoint& joint : joints) {
-    const auto same =
-        std::find_if(known.begin(), known.end(), [&](const LimitedJoint& k) { return k.name == joint.name; });
-    if (same == known.end())
+    const auto* const same = find_by(known, &LimitedJoint::name, joint.name);
+    if (!same)
       throw std::logic_error(fmt::format("\"{}\" is elastic with some effects, and with others not", joint.name));
     found.push_back(*same);
   }

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "drivetrain/shared/rating_keys.h"
+#include "engine/base/find_by.h"
 #include "engine/numerics/index.h"
 #include "engine/orbit/follow_period.h"
 #include "studies/duty/motor_figures.h"
@@ -31,9 +32,8 @@ std::vector<Drive> drives_of(const Model& model) {
   for (std::size_t e = 0; e < model.network.elements.size(); ++e) {
     const Network::ShaftElement& element = model.network.elements[e];
     if (element.element->account != Account::driving) continue;
-    const auto known =
-        std::find_if(drives.begin(), drives.end(), [&](const Drive& d) { return d.component == element.component; });
-    if (known != drives.end()) {
+    auto* const known = find_by(drives, &Drive::component, element.component);
+    if (known) {
       known->elements.push_back(e);
     } else {
       drives.push_back({.component = element.component, .elements = {e}, .node = element.node});

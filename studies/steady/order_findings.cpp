@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/find_by.h"
 #include "engine/numerics/angles.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/plots.h"
@@ -66,9 +67,7 @@ Rows orders_table(const SteadyStudy& s, const SteadyCycle& c) {
 }
 
 const OrdersOf* orders_named(const SteadyCycle& c, const std::string& name) {
-  const auto found =
-      std::find_if(c.orders.begin(), c.orders.end(), [&](const OrdersOf& o) { return o.channel == name; });
-  return found == c.orders.end() ? nullptr : &*found;
+  return find_by(c.orders, &OrdersOf::channel, name);
 }
 
 // All orders up to the highest significant one of the models; empty: nothing oscillates.

@@ -1,4 +1,5 @@
 // steady_findings.cpp — words, tables and plots of steady cycles.
+#include "engine/base/find_by.h"
 #include "engine/numerics/angles.h"
 #include "studies/run/compare.h"
 #include "studies/steady/steady.h"
@@ -183,9 +184,7 @@ void add_tables(Findings& f, const SteadyStudy& s) {
 const Trace* trace_of(const SteadyCycle& c, const std::string& name) {
   const CycleTraces* const cycle = whole_cycle(c);
   if (!cycle) return nullptr;
-  const auto found =
-      std::find_if(cycle->traces.begin(), cycle->traces.end(), [&](const Trace& t) { return t.name == name; });
-  return found == cycle->traces.end() ? nullptr : &*found;
+  return find_by(cycle->traces, &Trace::name, name);
 }
 
 Series over_degrees(const std::string& name, Role role, const Trace& t) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "drivetrain/shared/rating_keys.h"
+#include "engine/base/find_by.h"
 #include "engine/numerics/angles.h"
 #include "engine/scene/quantity_place.h"
 #include "engine/scene/units.h"
@@ -60,11 +61,10 @@ void add_loads(const SteadyCycle& c, std::vector<Verdict>& verdicts) {
   const std::vector<LimitedJoint> joints = limited_joints(*c.model);
   const auto head = [](const Verdict& v) { return v.requirement.substr(0, v.requirement.find(':')); };
   for (Verdict& v : judge(joints, c.loads, none, {}, c.model->scene.speed_unit)) {
-    const auto joint =
-        std::find_if(joints.begin(), joints.end(), [&v](const LimitedJoint& j) { return j.name == v.component; });
+    const auto* const joint = find_by(joints, &LimitedJoint::name, v.component);
     std::erase_if(verdicts, [&](const Verdict& other) {
-      const bool same = other.component == v.component ||
-                        (joint != joints.end() && other.component == joint->component);  // of its segments together
+      const bool same =
+          other.component == v.component || (joint && other.component == joint->component);  // of its segments together
       return same && head(other) == head(v) && other.load_case == v.load_case;
     });
     verdicts.push_back(std::move(v));

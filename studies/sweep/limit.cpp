@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/base/find_by.h"
 #include "engine/scene/keys.h"
 #include "engine/scene/messages.h"
 #include "engine/scene/units.h"
@@ -42,14 +43,14 @@ FigureLimit parse_limit(const std::string& text, const std::vector<SweptFigure>&
   std::string name = text.substr(0, sign);
   name.resize(name.find_last_not_of(' ') + 1);
   name.erase(0, std::min(name.find_first_not_of(' '), name.size()));
-  const auto found = std::find_if(figures.begin(), figures.end(), [&](const SweptFigure& f) { return f.name == name; });
-  if (found == figures.end()) {
+  const auto* const found = find_by(figures, &SweptFigure::name, name);
+  if (!found) {
     std::vector<std::string> names;
     for (const SweptFigure& f : figures) names.push_back(f.name);
     refuse(fmt::format("no figure {} in this sweep{}; it has: {}", in_quotes(name), suggestion(name, names),
                        shortened_list(names, "and")));
   }
-  limit.figure = static_cast<std::size_t>(found - figures.begin());
+  limit.figure = static_cast<std::size_t>(found - figures.data());
   UnitError error;
   const std::size_t value_at = text.find_first_not_of("<>= ", sign);
   const auto quantity = parse_quantity(value_at == std::string::npos ? "" : text.substr(value_at), error);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/find_by.h"
 #include "engine/scene/units.h"
 #include "studies/findings/thin.h"
 
@@ -156,11 +157,10 @@ Plot map_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::s
       }
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   };
-  const auto limit =
-      std::find_if(s.limits.begin(), s.limits.end(), [&](const FigureLimit& l) { return l.figure == figure; });
+  const auto* const limit = find_by(s.limits, &FigureLimit::figure, figure);
   plot.map = cells_of(s, figure, a, b, unit);
   if (plot.map && s.identity.parameters.size() > 2) plot.note = "Colours: mean over all other parameters.";
-  if (limit != s.limits.end()) {
+  if (limit) {
     plot.title += fmt::format(": where {}", limit->given);
     if (!plot.map) add("holds", Role::green, [&](const SweepRow& r) { return side_of(*limit, r) == Side::holds; });
     add("within its error", Role::orange, [&](const SweepRow& r) { return side_of(*limit, r) == Side::undecided; });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "engine/base/find_by.h"
 #include "studies/sweep/sweep_findings.h"
 
 namespace kurbel {
@@ -52,10 +53,9 @@ class WorstRows {
  public:
   WorstRows(std::size_t figure, const SweepIdentity& identity, const std::vector<FigureLimit>& limits)
       : figure_(figure) {
-    const auto limit =
-        std::find_if(limits.begin(), limits.end(), [&](const FigureLimit& l) { return l.figure == figure; });
-    few_ = !limits.empty() && limit == limits.end() ? 0 : identity.figures.size() > 4 ? 1 : 3;
-    sign_ = limit != limits.end() && !limit->from_above ? -1 : 1;
+    const auto* const limit = find_by(limits, &FigureLimit::figure, figure);
+    few_ = !limits.empty() && !limit ? 0 : identity.figures.size() > 4 ? 1 : 3;
+    sign_ = limit && !limit->from_above ? -1 : 1;
   }
   void take_up(const SweepRow& row) {
     if (few_ == 0 || !std::isfinite(value_in(row, figure_))) return;

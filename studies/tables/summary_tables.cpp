@@ -1,18 +1,18 @@
 // summary_tables.cpp — a walk through a summary.
 #include "studies/tables/summary_tables.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
+#include "engine/base/find_by.h"
 #include "studies/dictionary/dictionary.h"
 
 namespace kurbel {
 namespace {
 
 const Value* value_of(const Record& record, const char* key) {
-  const auto found = std::find_if(record.begin(), record.end(), [&](const Field& field) { return field.key == key; });
-  return found == record.end() ? nullptr : &found->value;
+  const auto* const found = find_by(record, &Field::key, key);
+  return found ? &found->value : nullptr;
 }
 
 std::string text_in(const Record& record, const char* key) {

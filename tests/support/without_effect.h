@@ -1,7 +1,6 @@
 // without_effect.h — a scene without the data of an effect.
 #pragma once
 
-#include <algorithm>
 #include <string>
 
 #include "engine/scene/scene.h"
