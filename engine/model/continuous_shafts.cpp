@@ -12,6 +12,7 @@
 #include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/lobatto_element.h"
+#include "engine/numerics/roots.h"
 
 namespace kurbel {
 namespace {
@@ -26,12 +27,7 @@ double first_root(double a, double b) {
   const auto value = [&](double x) {
     return (std::sin(x) * (a * b * x * x - 1) - (a + b) * x * std::cos(x)) / ((1 + a) * (1 + b));
   };
-  double low = 0, high = pi;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (value(middle) < 0 ? low : high) = middle;
-  }
-  return high;
+  return halved({0, pi}, 60, [&](double x) { return value(x) < 0; }).high;
 }
 
 int degree_for(double x) {

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <climits>
 #include <utility>
 
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/roots.h"
 
 namespace kurbel {
 namespace {
@@ -407,9 +409,7 @@ std::optional<FormulaFault> Formula::knots(double from, double to, std::vector<d
     // Within: the last place, to a digit, where the answers are those of the begin.
     const std::vector<char> before = choices(low);
     if (choices(high) == before) continue;
-    double a = low, b = high;
-    for (double middle = 0.5 * (a + b); a < middle && middle < b; middle = 0.5 * (a + b))
-      (choices(middle) == before ? a : b) = middle;
+    const double b = halved({low, high}, INT_MAX, [&](double x) { return choices(x) == before; }).high;
     if (b - knots.back() > 4 * least && to - b > 4 * least) knots.push_back(b);
     if (knots.size() > most_knots) return FormulaFault{b, 0, fmt::format("more than {} kinks", most_knots)};
   }

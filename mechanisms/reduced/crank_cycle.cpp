@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/numerics/roots.h"
+
 namespace kurbel {
 namespace {
 
@@ -111,14 +113,11 @@ void CrankCycle::find_change_points(const MechanismData& data) {
   const auto sine = [&](double phi) { return data.linkage(phi).sine; };
   const double step = 2 * std::numbers::pi / samples;
   for (int i = 0; i < samples * turns_; ++i) {
-    double from = (i + shift) * step, to = from + step;
+    const double from = (i + shift) * step, to = from + step;
     const bool positive = sine(from) > 0;
     if ((sine(to) > 0) == positive) continue;
-    for (int k = 0; k < 60; ++k) {
-      const double middle = 0.5 * (from + to);
-      ((sine(middle) > 0) == positive ? from : to) = middle;
-    }
-    change_points_.push_back(std::fmod(0.5 * (from + to), angle()));
+    const auto before = [&](double phi) { return (sine(phi) > 0) == positive; };
+    change_points_.push_back(std::fmod(halved({from, to}, 60, before).middle(), angle()));
     if (angle() - change_points_.back() < 1e-9) change_points_.back() = 0;
   }
   std::sort(change_points_.begin(), change_points_.end());

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "engine/numerics/angles.h"
+#include "engine/numerics/roots.h"
 #include "engine/scene/scene.h"
 
 namespace kurbel {
@@ -17,11 +18,8 @@ namespace {
 // x′ = 0 between two angles where it changes sign: bisection, which needs no good start.
 double reversal_between(const ReducedMechanism& reduced, double from, double to) {
   const bool grows = reduced.output_velocity(from).value > 0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (from + to);
-    ((reduced.output_velocity(middle).value > 0) == grows ? from : to) = middle;
-  }
-  return 0.5 * (from + to);
+  const auto before = [&](double phi) { return (reduced.output_velocity(phi).value > 0) == grows; };
+  return halved({from, to}, 60, before).middle();
 }
 
 // "; change points at 90° and 270°; …" for a mechanism with a special cycle.

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "engine/numerics/angles.h"
+#include "engine/numerics/roots.h"
 #include "studies/data/named.h"
 #include "studies/size/flywheel.h"
 
@@ -39,16 +40,6 @@ struct Spoked {
   double mass() const { return rim_mass + spoke_mass + hub_mass; }
   double inertia() const { return rim_inertia + spoke_inertia + hub_inertia; }
 };
-
-// Root of a function that grows over low … high.
-template <class F>
-double grown_to(F f, double target, double low, double high) {
-  for (int i = 0; i < 200; ++i) {
-    const double middle = 0.5 * (low + high);
-    (f(middle) < target ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
 
 void check(const FlywheelRequest& r) {
   const auto require = [](double value, const char* what, const char* unit) {
@@ -84,8 +75,8 @@ void make_rim(const FlywheelRequest& r, double limit, FlywheelDimensions& d) {
         r.diameter > 0
             ? "give a larger --diameter"
             : "choose a --material with a higher allowable rim speed, or put the flywheel on a slower shaft"));
-  d.thickness =
-      grown_to([&](double h) { return Spoked(d.diameter, h, density).inertia(); }, r.inertia, 0, widest * d.diameter);
+  const auto too_thin = [&](double h) { return Spoked(d.diameter, h, density).inertia() < r.inertia; };
+  d.thickness = halved({0, widest * d.diameter}, 200, too_thin).middle();
   const Spoked parts(d.diameter, d.thickness, density);
   d.breadth = breadth_share * d.thickness;
   d.mass = parts.mass();
