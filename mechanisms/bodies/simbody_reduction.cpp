@@ -35,8 +35,6 @@ Planar<double> planar(const V& v) {
   return {v[0], v[1]};
 }
 
-double norm(Planar<double> a) { return std::hypot(a.x, a.y); }
-
 // First, second and third derivative of a vector a that turns with a body.
 Planar<double> turn1(const BodyMotion& b, Planar<double> a) { return b.w * left(a); }
 Planar<double> turn2(const BodyMotion& b, Planar<double> a) { return b.alpha * left(a) - (b.w * b.w) * a; }
@@ -75,7 +73,7 @@ void SimbodyReduction::read_joints() {
     if (plane_angle(outboard.R()) != 0) throw std::logic_error("simbody_reduction: an outboard frame is turned");
     joints_.push_back({int(body.getParentMobilizedBody().getMobilizedBodyIndex()), slides, planar(inboard.p()),
                        planar(outboard.p()), plane_angle(inboard.R()), int(body.getFirstQIndex(state))});
-    size_ += norm(joints_.back().in_parent) + norm(joints_.back().in_body);
+    size_ += length(joints_.back().in_parent) + length(joints_.back().in_body);
   }
 }
 
@@ -88,7 +86,7 @@ void SimbodyReduction::read_closures() {
     closures_.push_back({int(plane.getPlaneMobilizedBodyIndex()), int(plane.getFollowerMobilizedBodyIndex()),
                          planar(plane.getDefaultPlaneNormal()), planar(plane.getDefaultFollowerPoint()),
                          plane.getDefaultPlaneHeight()});
-    size_ += norm(closures_.back().follower) + std::fabs(closures_.back().height);
+    size_ += length(closures_.back().follower) + std::fabs(closures_.back().height);
   }
 }
 

@@ -14,6 +14,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "mechanisms/loops/planar.h"
+
 namespace kurbel {
 
 // A point fixed to a body.
@@ -44,17 +46,6 @@ struct KnownDerivatives {
 // The highest derivatives of the coordinates that a reduction computes: dq/dφ, with I_r alone (I_r′ and I_r″ stay 0), or
 // up to d³q/dφ³.
 enum class Upto { velocity, jerk };
-
-// A planar vector in precision T.
-template <class T>
-struct Planar {
-  T x{}, y{};
-  friend Planar operator+(Planar a, Planar b) { return {a.x + b.x, a.y + b.y}; }
-  friend Planar operator-(Planar a, Planar b) { return {a.x - b.x, a.y - b.y}; }
-  friend Planar operator*(T s, Planar a) { return {s * a.x, s * a.y}; }
-  friend T dot(Planar a, Planar b) { return a.x * b.x + a.y * b.y; }
-  friend Planar left(Planar a) { return {-a.y, a.x}; }  // ẑ × a
-};
 
 // Velocity, acceleration and jerk ratios of a body: of its origin and of its angle.
 struct BodyMotion {

@@ -1,22 +1,14 @@
 // link_pose.h — pose of a link: the image of its sketch, as a series in the angle of the driving link.
 #pragma once
 
-#include <cmath>
-
+#include "mechanisms/loops/planar.h"
 #include "mechanisms/loops/taylor.h"
 
 namespace kurbel {
 
 // A point or a direction of a link, in the position of the sketch and in the mechanism's axes [m].
-struct SketchSpot {
-  long double x = 0, y = 0;
-  friend SketchSpot operator+(SketchSpot a, SketchSpot b) { return {a.x + b.x, a.y + b.y}; }
-  friend SketchSpot operator-(SketchSpot a, SketchSpot b) { return {a.x - b.x, a.y - b.y}; }
-  friend SketchSpot operator*(long double s, SketchSpot a) { return {s * a.x, s * a.y}; }
-};
-inline long double dot(SketchSpot a, SketchSpot b) { return a.x * b.x + a.y * b.y; }
-inline long double cross(SketchSpot a, SketchSpot b) { return a.x * b.y - a.y * b.x; }
-inline long double length(SketchSpot a) { return std::hypot(a.x, a.y); }
+using SketchSpot = Planar<long double>;
+
 inline Taylor dot(const Path& a, const Path& b) { return a.x * b.x + a.y * b.y; }
 inline Taylor cross(const Path& a, const Path& b) { return a.x * b.y - a.y * b.x; }
 inline Path operator*(const Taylor& s, const Path& a) { return {s * a.x, s * a.y}; }

@@ -22,11 +22,8 @@ using Columns = Eigen::Matrix<Real, Eigen::Dynamic, cases, Eigen::RowMajor, most
 using RightSides = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using CaseColumn = Eigen::Matrix<Real, Eigen::Dynamic, 1, 0, most, 1>;
 
-struct Vector {
-  Real x, y;
-};
+using Vector = Planar<Real>;
 Vector at(const Path& p) { return {p.x.value(), p.y.value()}; }
-Real cross(Vector a, Vector b) { return a.x * b.y - a.y * b.x; }
 Force2 rounded(Vector v) { return {static_cast<double>(v.x), static_cast<double>(v.y)}; }
 double rounded(Real v) { return static_cast<double>(v); }
 
@@ -119,8 +116,7 @@ class Equations {
       const Vector along{j.along.cos.value(), j.along.sin.value()};
       for (const auto& [body, sense] : {std::pair{j.on, Real(1)}, std::pair{j.from, Real(-1)}})
         if (body != PlanarLinkage::frame)
-          put(body, at(j.at), unit.couple ? Vector{} : Vector{sense * along.x, sense * along.y},
-              unit.couple ? sense : 0, column, right);
+          put(body, at(j.at), unit.couple ? Vector{} : sense * along, unit.couple ? sense : 0, column, right);
       ++column;
     }
     return right;
@@ -205,7 +201,7 @@ void add_link(const PlanarLinkage::Body& b, LinkageForces& f) {
   const Vector acceleration = {b.com.x.curvature() * w * w + b.com.x.slope() * a,
                                b.com.y.curvature() * w * w + b.com.y.slope() * a};
   const Real turning = rate.slope() * w * w + rate.value() * a;
-  const Vector force = {-m * acceleration.x, -m * acceleration.y};
+  const Vector force = -m * acceleration;
   const Real couple = -b.inertia * turning, vx = b.com.x.slope(), vy = b.com.y.slope();
   const Real inertia = m * (vx * vx + vy * vy) + b.inertia * rate.value() * rate.value();
   const Real slope =

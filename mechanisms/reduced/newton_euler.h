@@ -11,30 +11,18 @@
 // on links; every reaction is linear in these.
 #pragma once
 
-#include <cmath>
 #include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "mechanisms/loops/planar.h"
 #include "mechanisms/reduced/mechanism_data.h"
 
 namespace kurbel {
 
-struct Force2 {
-  double x = 0, y = 0;  // [N]
-  double magnitude() const { return std::hypot(x, y); }
-  double direction() const { return std::atan2(y, x); }  // [rad]
-  // Components in axes rotated by `angle` relative to the frame.
-  Force2 seen_from(double angle) const {
-    const double c = std::cos(angle), s = std::sin(angle);
-    return {c * x + s * y, c * y - s * x};
-  }
-};
-inline Force2 operator+(Force2 a, Force2 b) { return {a.x + b.x, a.y + b.y}; }
-inline Force2 operator-(Force2 a, Force2 b) { return {a.x - b.x, a.y - b.y}; }
-inline Force2 operator*(double s, Force2 a) { return {s * a.x, s * a.y}; }
+using Force2 = Planar<double>;  // [N]
 
 // A force on a body other than its weight and the load on the output.
 struct AppliedForce {

@@ -73,7 +73,6 @@ Loads weight_loads(const SliderCrankData& d, const SliderGuide& guide) {
 }
 
 Force2 crank_com_at(const SliderCrankData& d, const Position& p) { return d.crank_com * Force2{p.c, p.s}; }
-double cross(Force2 a, Force2 b) { return a.x * b.y - a.y * b.x; }
 
 // Slider, then rod, then crank in equilibrium.
 SliderCrankStatics::Column equilibrium(const SliderCrankData& d, const Position& p, const Loads& on) {
