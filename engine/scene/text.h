@@ -12,6 +12,12 @@ inline bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0
 inline std::size_t characters(std::string_view text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character));
 }
+// The characters that are whole in the first bytes.
+inline std::string_view cut_at_character(std::string_view text, std::size_t most_bytes) {
+  if (text.size() <= most_bytes) return text;
+  while (most_bytes > 0 && !begins_character(text[most_bytes])) --most_bytes;
+  return text.substr(0, most_bytes);
+}
 
 inline std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r\n") {
   const std::size_t begin = text.find_first_not_of(blanks);

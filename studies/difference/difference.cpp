@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/scene/text.h"
 #include "studies/findings/figure_changes.h"
 
 namespace kurbel {
@@ -38,9 +39,7 @@ std::string in_one_line(const DocumentValue& v) {
     return v.describe();
   }
   if (text.size() <= most) return text;
-  std::size_t end = most;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // no half character
-  return text.substr(0, end) + " …";
+  return std::string(cut_at_character(text, most)) + " …";
 }
 
 class Changes {

@@ -5,23 +5,18 @@
 #include <algorithm>
 #include <iterator>
 
+#include "engine/scene/text.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/output.h"
 
 namespace kurbel {
 namespace {
 
-// Display width: UTF-8 continuation bytes take no column.
-std::size_t width(const std::string& text) {
-  std::size_t n = 0;
-  for (const char c : text) n += (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-  return n;
-}
 std::string padded(const std::string& text, std::size_t columns) {
-  return text + std::string(columns > width(text) ? columns - width(text) : 0, ' ');
+  return text + std::string(columns > characters(text) ? columns - characters(text) : 0, ' ');
 }
 std::string right(const std::string& text, std::size_t columns) {
-  return std::string(columns > width(text) ? columns - width(text) : 0, ' ') + text;
+  return std::string(columns > characters(text) ? columns - characters(text) : 0, ' ') + text;
 }
 
 constexpr std::size_t every_row = SIZE_MAX / 2;
@@ -66,10 +61,11 @@ void say(std::string&, const Drawn&, std::size_t) {}
 // At most `columns` columns; the rest, of what goes on in any case, is in the report.
 std::string shortened(const std::string& text, std::size_t columns, bool goes_on = false) {
   static const std::string stated_elsewhere = " … (report)";
-  if (width(text) + (goes_on ? width(stated_elsewhere) : 0) <= columns) return text + (goes_on ? stated_elsewhere : "");
+  if (characters(text) + (goes_on ? characters(stated_elsewhere) : 0) <= columns)
+    return text + (goes_on ? stated_elsewhere : "");
   std::size_t n = 0, bytes = 0;
-  for (std::size_t i = 0; i < text.size() && n + width(stated_elsewhere) <= columns; ++i)
-    if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) bytes = i, ++n;
+  for (std::size_t i = 0; i < text.size() && n + characters(stated_elsewhere) <= columns; ++i)
+    if (begins_character(text[i])) bytes = i, ++n;
   const std::size_t blank = text.find_last_of(' ', bytes);
   return text.substr(0, blank == std::string::npos || blank < bytes / 2 ? bytes : blank) + stated_elsewhere;
 }
@@ -81,7 +77,7 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t columns, c
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(' ', begin), text.size());
     const std::string word = text.substr(begin, end - begin);
-    if (!line.empty() && width(line) + 1 + width(word) > columns) {
+    if (!line.empty() && characters(line) + 1 + characters(word) > columns) {
       lines.push_back(line);
       line = indent + word;
     } else {
@@ -98,7 +94,7 @@ std::vector<std::string> aligned_lines(const std::vector<std::vector<std::string
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()), 0);
-    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], width(row[k]));
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], characters(row[k]));
   }
   std::vector<std::string> lines;
   for (const auto& row : rows) {

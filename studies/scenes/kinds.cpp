@@ -12,6 +12,7 @@
 #include "drivetrain/kinds.h"
 #include "engine/reading/sequence_reader.h"
 #include "engine/scene/scene.h"
+#include "engine/scene/text.h"
 #include "engine/scene/units.h"
 #include "mechanisms/kinds/kinds.h"
 #include "studies/data/named.h"
@@ -86,12 +87,6 @@ std::string chapter(const Kind& kind, const char* level, Printed& printed) {
   return text;
 }
 
-// Display columns of a text: UTF-8 continuation bytes take none.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
 // Columns below each other.
 std::string aligned(const std::vector<Key>& keys) {
   std::vector<std::vector<std::string>> cells = {{"key", "unit or values", "default", "domain", "meaning"}};
@@ -104,17 +99,17 @@ std::string aligned(const std::vector<Key>& keys) {
   constexpr std::size_t widest = 30;
   std::vector<std::size_t> widths(4, 0);
   for (const auto& row : cells)
-    for (std::size_t k = 0; k < 4; ++k) widths[k] = std::max(widths[k], std::min(width(row[k]), widest));
+    for (std::size_t k = 0; k < 4; ++k) widths[k] = std::max(widths[k], std::min(characters(row[k]), widest));
   std::string text;
   for (const auto& row : cells) {
     std::string line = "  ";
     std::size_t begin = 2;
     for (std::size_t k = 0; k < 5; ++k) {
-      if (k > 0 && width(line) + 2 > begin) {  // a long list of values has the line for itself
+      if (k > 0 && characters(line) + 2 > begin) {  // a long list of values has the line for itself
         text += line + "\n";
         line.clear();
       }
-      line += std::string(begin - width(line), ' ') + row[k];
+      line += std::string(begin - characters(line), ' ') + row[k];
       if (k == 4) break;
       begin += widths[k] + 2;
     }

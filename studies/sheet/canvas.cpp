@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "engine/scene/printable.h"
+#include "engine/scene/text.h"
 
 namespace kurbel {
 namespace {
@@ -84,11 +85,7 @@ std::string xml_text(std::string_view text) {
   return out;
 }
 
-double width_of(std::string_view text, double size) {
-  const auto letters =
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
-  return 0.56 * size * static_cast<double>(letters);
-}
+double width_of(std::string_view text, double size) { return 0.56 * size * static_cast<double>(characters(text)); }
 
 void Canvas::line(Spot a, Spot b, Pen pen) {
   svg_ += fmt::format("<line class=\"{}\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>\n", class_of(pen), mm(a.x), mm(a.y),

@@ -14,17 +14,12 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/scene/text.h"
+
 namespace kurbel {
 namespace {
 
 constexpr std::size_t longest_name = 31, longest_text = 32'000;
-
-// UTF-8, cut at a character boundary.
-std::string_view shortened(std::string_view text, std::size_t most_bytes) {
-  if (text.size() <= most_bytes) return text;
-  while (most_bytes > 0 && (static_cast<unsigned char>(text[most_bytes]) & 0xC0) == 0x80) --most_bytes;
-  return text.substr(0, most_bytes);
-}
 
 // XML allows no control characters except white space.
 void put_escaped(std::string& to, std::string_view text) {
@@ -52,7 +47,7 @@ void put_cell(std::string& to, std::size_t row, std::size_t column, const DataCe
     if (std::isfinite(*number)) fmt::format_to(std::back_inserter(to), "<c r=\"{}\"><v>{}</v></c>", place(), *number);
   } else if (const std::string* text = &std::get<std::string>(cell); !text->empty()) {
     fmt::format_to(std::back_inserter(to), "<c r=\"{}\" t=\"inlineStr\"><is><t xml:space=\"preserve\">", place());
-    put_escaped(to, shortened(*text, longest_text));
+    put_escaped(to, cut_at_character(*text, longest_text));
     to += "</t></is></c>";
   }
 }
@@ -61,7 +56,7 @@ void put_cell(std::string& to, std::size_t row, std::size_t column, const DataCe
 double width_of(const std::string& heading) { return std::clamp(static_cast<double>(heading.size()) + 2, 10.0, 40.0); }
 
 std::string lawful(const std::string& name) {
-  std::string lawful(shortened(name, longest_name));
+  std::string lawful(cut_at_character(name, longest_name));
   for (char& c : lawful)
     if (std::string_view("[]:*?/\\'").find(c) != std::string_view::npos) c = '_';
   return lawful;
@@ -73,7 +68,7 @@ void XlsxSheet::headings(const std::vector<std::string>& texts, std::size_t lead
   for (std::size_t k = 0; k < texts.size(); ++k) {
     const auto column = static_cast<lxw_col_t>(k);
     worksheet_set_column(sheet_, column, column, width_of(texts[k]), nullptr);
-    worksheet_write_string(sheet_, 0, column, std::string(shortened(texts[k], longest_text)).c_str(), bold_);
+    worksheet_write_string(sheet_, 0, column, std::string(cut_at_character(texts[k], longest_text)).c_str(), bold_);
   }
   worksheet_freeze_panes(sheet_, 1, static_cast<lxw_col_t>(leading_columns));
   lxw_worksheet_write_single_row(sheet_);
@@ -112,7 +107,7 @@ XlsxSheet XlsxBook::sheet(const std::string& name) {
   std::string own = lawful(name);
   for (int number = 2; !names_.insert(folded(own)).second; ++number) {
     const std::string ending = fmt::format(" {}", number);
-    own = std::string(shortened(lawful(name), longest_name - ending.size())) + ending;
+    own = std::string(cut_at_character(lawful(name), longest_name - ending.size())) + ending;
   }
   lxw_worksheet* const sheet = workbook_add_worksheet(book_, own.c_str());
   if (!sheet) throw std::runtime_error(fmt::format("cannot write {}: no temporary file for a sheet", file_));

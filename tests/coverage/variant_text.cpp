@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "engine/scene/text.h"
 #include "engine/scene/units.h"
 
 namespace kurbel::coverage {
@@ -145,7 +146,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 std::size_t byte_of(const std::string& line, int column) {
   std::size_t i = 0;
   for (int seen = 0; i < line.size(); ++i)
-    if ((static_cast<unsigned char>(line[i]) & 0xC0) != 0x80 && ++seen == column) break;
+    if (begins_character(line[i]) && ++seen == column) break;
   return i;
 }
 

@@ -1,4 +1,5 @@
 // conclusions_test.cpp — what is said first: in the right order, rounded, and the same everywhere.
+#include "engine/scene/text.h"
 #include "studies/claims/headline.h"
 
 #include <gtest/gtest.h>
@@ -131,8 +132,7 @@ TEST(Conclusion, OfEverySceneIsOneAndTheShortFormIsShort) {
     for (std::size_t begin = 0; begin < brief.size();) {
       const std::size_t end = brief.find('\n', begin);
       const auto width = std::count_if(brief.begin() + static_cast<std::ptrdiff_t>(begin),
-                                       brief.begin() + static_cast<std::ptrdiff_t>(end),
-                                       [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+                                       brief.begin() + static_cast<std::ptrdiff_t>(end), begins_character);
       EXPECT_LE(width, 110) << name << ": " << brief.substr(begin, end - begin);
       begin = end + 1;
     }
