@@ -1,4 +1,5 @@
 // html.cpp — the page: template, styles and scripts with the report's data as JSON.
+#include "studies/data/xml.h"
 #include "studies/report/render.h"
 
 #include <fmt/format.h>
@@ -273,27 +274,6 @@ Record record_of(const Report& report, const Letterhead& head) {
   return r;
 }
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  return out;
-}
-
 }  // namespace
 
 bool stands_behind(const Plot& plot, const Series& series) {
@@ -351,9 +331,9 @@ std::string html_of(const Report& report, const Letterhead& head) {
     const std::string_view name = page.substr(open + 2, close - open - 2);
     html += page.substr(at, open - at);
     if (name == "title")
-      html += escaped(report.title);
+      html += escaped_xml(report.title);
     else if (name == "conclusion")
-      html += escaped(fmt::format("{}", fmt::join(report.conclusion, " ")));
+      html += escaped_xml(fmt::format("{}", fmt::join(report.conclusion, " ")));
     else if (name == "css")
       html += page_css();
     else if (name == "js")
@@ -361,7 +341,7 @@ std::string html_of(const Report& report, const Letterhead& head) {
     else if (name == "plotly")
       html += plotly_js();
     else if (name == "licence")
-      html += escaped(plotly_licence());
+      html += escaped_xml(plotly_licence());
     else if (name == "data")
       html += json;
     else

@@ -9,6 +9,7 @@
 
 #include "engine/scene/printable.h"
 #include "engine/scene/text.h"
+#include "studies/data/xml.h"
 
 namespace kurbel {
 namespace {
@@ -68,22 +69,7 @@ std::string with_indices(std::string_view text) {
 
 }  // namespace
 
-std::string xml_text(std::string_view text) {
-  std::string out;
-  for (const char c : printable(text)) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
+std::string xml_text(std::string_view text) { return escaped_xml(printable(text)); }
 
 double width_of(std::string_view text, double size) { return 0.56 * size * static_cast<double>(characters(text)); }
 
