@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string>
 #include <string_view>
 
 namespace kurbel {
@@ -23,6 +24,12 @@ inline std::string_view trimmed(std::string_view text, std::string_view blanks =
   const std::size_t begin = text.find_first_not_of(blanks);
   return begin == std::string_view::npos ? std::string_view()
                                          : text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
+// A name as words: blanks for underscores.
+inline std::string as_words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 // Case-insensitive for ASCII.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/scene/text.h"
 #include "studies/findings/figure_text.h"
 
 namespace kurbel {
@@ -63,15 +64,9 @@ std::size_t number_apart(std::vector<BarredRange> ranges) {
   return number;
 }
 
-// A limit's key in words: "vibratory torque".
-std::string in_words(std::string key) {
-  std::replace(key.begin(), key.end(), '_', ' ');
-  return key;
-}
-
 }  // namespace
 
-std::string reason_in_words(const BarredRange& range) { return in_words(range.reason); }
+std::string reason_in_words(const BarredRange& range) { return as_words(range.reason); }
 
 Rows verdict_table(const std::vector<Verdict>& verdicts) {
   // The most important column first, as a narrow page shows the left part.
@@ -117,7 +112,7 @@ Rows barred_table(const std::vector<BarredRange>& ranges, const std::vector<Limi
       .text_in(2)
       .column("joint", "joint", [&joints](const BarredRange& b) { return joints[b.joint].name; })
       .column("reason", "barred because of", &BarredRange::reason,
-              [](const std::string& reason) { return in_words(reason); })
+              [](const std::string& reason) { return as_words(reason); })
       .only_for_programs("by", [](const BarredRange& b) { return std::string(name_of(b.by)); })
       .only_for_programs("everywhere", &BarredRange::everywhere)
       .column("from", fmt::format("from [{}]", unit.name), &BarredRange::from, speed)

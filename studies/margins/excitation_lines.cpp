@@ -11,6 +11,7 @@
 #include "engine/model/cycle_of.h"
 #include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
+#include "engine/scene/text.h"
 
 namespace kurbel {
 namespace {
@@ -19,11 +20,6 @@ constexpr double least_strength = 1e-6;  // of the strongest harmonic of the sam
 constexpr double same = 1e-6;            // orders that differ by less are one
 constexpr double most_teeth = 1000;      // of a wheel: more stand for a ratio
 constexpr int harmonics_of_a_law = 12;   // where laws have no common period
-
-std::string readable(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
 
 // Shafts of equal speed.
 struct SpeedGroup {
@@ -45,7 +41,7 @@ std::vector<SpeedGroup> speed_groups(const Model& m) {
                               [&](const SpeedGroup& g) { return std::abs(g.ratio - ratio) <= same * ratio; });
     if (group == groups.end()) group = groups.insert(groups.end(), SpeedGroup{ratio, {}});
     if (inertia[n] > group->inertia)
-      group->inertia = inertia[n], group->name = readable(m.node_label(static_cast<int>(n)));
+      group->inertia = inertia[n], group->name = as_words(m.node_label(static_cast<int>(n)));
   }
   return groups;
 }
@@ -68,7 +64,7 @@ class LineList {
     for (const FrequencySource& f : x_.by_frequency)
       add({.kind = ExcitationLine::Kind::frequency,
            .label = fmt::format("{:.4g} Hz", f.omega / turn),
-           .source = readable(f.component),
+           .source = as_words(f.component),
            .fixed = f.omega,
            .in_scene = true});
     return std::move(lines_);
@@ -114,8 +110,8 @@ class LineList {
         continue;
       }
       for (const double k : orders)
-        add({.label = label(k, {ratio, readable(component)}),
-             .source = fmt::format("orders of {}", readable(component)),
+        add({.label = label(k, {ratio, as_words(component)}),
+             .source = fmt::format("orders of {}", as_words(component)),
              .order = k * ratio});
     }
   }
@@ -136,7 +132,7 @@ class LineList {
   void add_orders_of_each_law() {
     const auto add_law = [&](const std::string& component, double fundamental) {
       for (int k = 1; k <= harmonics_of_a_law; ++k)
-        add({.label = label_of_order(k * fundamental), .source = readable(component), .order = k * fundamental});
+        add({.label = label_of_order(k * fundamental), .source = as_words(component), .order = k * fundamental});
     };
     for (const Network::ShaftElement& e : m_.network.elements)
       if (e.element->is.uses_angle && e.element->angle_period > 0)
@@ -160,8 +156,8 @@ class LineList {
           notes_.push_back(fmt::format("{}: so many stand for a ratio; its mesh is no excitation here", reported.name));
         else
           add({.kind = ExcitationLine::Kind::mesh,
-               .label = "mesh " + readable(gearbox),
-               .source = readable(reported.name),
+               .label = "mesh " + as_words(gearbox),
+               .source = as_words(reported.name),
                .order = reported.order});
       }
   }
@@ -171,7 +167,7 @@ class LineList {
     if (m_.scene.operation.mains) supplies[*m_.scene.operation.mains] = "mains";
     for (const auto& [motor, data] : m_.network.data.all<InductionData>())
       if (!data.by_converter && !m_.scene.operation.mains && m_.scene.operation.motor != motor)
-        supplies[data.mains] = "mains of " + readable(motor);
+        supplies[data.mains] = "mains of " + as_words(motor);
     for (const auto& [frequency, source] : supplies)
       for (const double k : {1.0, 2.0})
         add({.kind = ExcitationLine::Kind::mains,
@@ -194,7 +190,7 @@ class LineList {
       add({.kind = ExcitationLine::Kind::converter,
            .label =
                h.text + (h.text.find_first_of("abcdefghijklmnopqrstuvwxyz") == std::string::npos ? "× output" : ""),
-           .source = "converter of " + readable(o.motor),
+           .source = "converter of " + as_words(o.motor),
            .order = sign * h.output * pairs * ratio,
            .fixed = sign * h.mains * turn * o.mains.value_or(0)});
     }
@@ -240,15 +236,15 @@ std::string source_of(const Excitations& x, std::size_t harmonic, double speed,
     if (sum > most * (1 + 1e-9)) most = sum, name = component;
   const auto like =
       std::count_if(strength.begin(), strength.end(), [&](const auto& s) { return s.second > 0.5 * most; });
-  if (name.empty() || like < 2) return readable(name);
+  if (name.empty() || like < 2) return as_words(name);
   // cylinder_1 … cylinder_4: "4 × cylinder"
   const std::string stem = name.substr(0, name.find_last_not_of("0123456789") + 1);
   const bool alike = std::all_of(strength.begin(), strength.end(), [&](const auto& s) {
     return !(s.second > 0.5 * most) || s.first.substr(0, s.first.find_last_not_of("0123456789") + 1) == stem;
   });
   return alike && !stem.empty()
-             ? fmt::format("{} × {}", like, readable(stem.substr(0, stem.find_last_not_of("_-") + 1)))
-             : fmt::format("{} and {} more", readable(name), like - 1);
+             ? fmt::format("{} × {}", like, as_words(stem.substr(0, stem.find_last_not_of("_-") + 1)))
+             : fmt::format("{} and {} more", as_words(name), like - 1);
 }
 
 std::vector<ExcitationLine> excitation_lines(const Model& model, const Excitations& excitations, double speed,

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "engine/scene/text.h"
 #include "studies/findings/plots.h"
 #include "studies/findings/rows.h"
 #include "studies/modes/critical_speeds.h"
@@ -19,11 +20,6 @@ constexpr std::size_t critical_shown = 16, rays_shown = 10, modes_named = 12;
 constexpr double mostly = 0.9;         // of a mode's energy in internal states: the mechanical shape does not matter
 constexpr double least_circle = 1e-3;  // of the severest critical speed's share
 constexpr double least_ray = 0.02;     // of the strongest order's torque
-
-std::string readable(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
 
 // Near enough to be drawn for its margin.
 bool is_near(const ModesStudy& m, const Margin& row) { return std::abs(row.margin) < 3 * m.margins.speeds.margin; }
@@ -137,7 +133,7 @@ std::string words_of(const ModesStudy& m, const Margin& row, double speed) {
                                  line.source.empty() ? "" : " of " + line.source, mode.number, mode.name);
   if (!row.not_assessed.empty()) return text + "response not assessed: " + row.not_assessed;
   return text + fmt::format("{} in {}\n{:.3g} % of the limit", torque_text(row.response->amplitude),
-                            readable(row.response->joint), 100 * row.response->share);
+                            as_words(row.response->joint), 100 * row.response->share);
 }
 
 // Intersections of the lines shown with modes: larger for higher utilisation.
@@ -241,7 +237,7 @@ std::string moving_parts(const ModesStudy& m, const Mode& mode) {
   if (one < 0) return "";
   for (int i = 0; i < static_cast<int>(energy.size()) && i < shape.size(); ++i)
     if (sense(i) != sense(one) && larger(i, other)) other = i;
-  const auto name = [&](int i) { return readable(m.shaft_names[static_cast<std::size_t>(i)]); };
+  const auto name = [&](int i) { return as_words(m.shaft_names[static_cast<std::size_t>(i)]); };
   if (other < 0 || energy[static_cast<std::size_t>(other)] < 0.03) return name(one);
   return name(one) + " against " + name(other);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/scene/text.h"
 #include "studies/modes/drive_limits.h"
 #include "studies/modes/modes_plots.h"
 
@@ -85,7 +86,7 @@ std::vector<EnergyStore> energy_stores(const ModesStudy& m, const Mode& mode) {
     }
     stores.push_back({places[k].state.name + " of " + component, kind_of(places[k].state), energy.own[k]});
   }
-  for (EnergyStore& store : stores) std::replace(store.name.begin(), store.name.end(), '_', ' ');
+  for (EnergyStore& store : stores) store.name = as_words(store.name);
   const auto in_order = [](double share) {
     return std::round(1e6 * share);
   };  // halves are halves, whatever rounding says

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/numerics/index.h"
+#include "engine/scene/text.h"
 #include "studies/findings/plots.h"
 #include "studies/findings/rows.h"
 #include "studies/limits/limits_findings.h"
@@ -28,7 +29,7 @@ std::string numbered(const std::vector<std::string>& names, const std::string& b
 // Parts along an axis: by name, or by number if there are too many.
 Axis axis_of(const std::string& label, std::vector<std::string> names) {
   if (names.size() > 40) return {.label = label};
-  for (std::string& name : names) std::replace(name.begin(), name.end(), '_', ' ');
+  for (std::string& name : names) name = as_words(name);
   return {.label = label, .names = std::move(names)};
 }
 

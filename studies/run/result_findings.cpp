@@ -1,4 +1,5 @@
 // result_findings.cpp — tables after the figures: energy, cost, limits of steps, events; a run for programs.
+#include "engine/scene/text.h"
 #include "studies/run/run_findings.h"
 
 #include <fmt/format.h>
@@ -286,9 +287,7 @@ void show_works_of_periods(Findings& f, Chapter in, const Result& r) {
   Lines lines;
   for (const WorkPeriod& p : three_periods(r.periods, r.begins_at, r.until)) {
     const std::string words = std::string("work_of_") + p.name;
-    std::string name = p.name;
-    std::replace(name.begin(), name.end(), '_', ' ');
-    std::vector<std::string> line = {name, read_as(p.begin), read_as(p.end)};
+    std::vector<std::string> line = {as_words(p.name), read_as(p.begin), read_as(p.end)};
     WorkPeriod reported = p;
     for (std::size_t i = 0; i < 5; ++i) {
       constexpr std::array kinds = {"driving", "useful", "harmful", "weight", "energy"};

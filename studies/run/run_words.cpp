@@ -1,4 +1,5 @@
 // run_words.cpp — sentences about one run.
+#include "engine/scene/text.h"
 #include "studies/run/run_findings.h"
 
 #include <fmt/format.h>
@@ -53,8 +54,7 @@ std::string reported(const EnergyBalance& e) {
 }
 
 std::string in_words(const Figure& f) {
-  std::string words(f.words());
-  std::replace(words.begin(), words.end(), '_', ' ');
+  std::string words = as_words(std::string(f.words()));
   if (is_one_of(f.what, {quantities::delta, quantities::cycle_fluctuation})) words = definition_of(f.what)->words;
   return f.of.empty() ? words : words + ", " + f.of;
 }
