@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/scene/text.h"
+#include "engine/values/quantity_reader.h"
 #include "studies/findings/figure_changes.h"
 
 namespace kurbel {
@@ -15,7 +16,6 @@ namespace {
 
 using Type = DocumentValue::Type;
 
-bool is_number(const DocumentValue& v) { return v.type == Type::integer || v.type == Type::number; }
 double number_of(const DocumentValue& v) { return v.type == Type::integer ? static_cast<double>(v.integer) : v.number; }
 
 bool same_quantity(const std::string& a, const std::string& b) {
