@@ -112,19 +112,11 @@ class RowsOf : public Rows {
     }
     return *this;
   }
-  template <class Get>
-  RowsOf& column(std::string its_key, std::string its_heading, Get get, ReadAs read) {
-    return column<Get, ReadAs>(std::move(its_key), std::move(its_heading), std::move(get), read);
-  }
   template <class Get, class Read = ReadAs>
   RowsOf& only_for_people(std::string its_heading, Get get, Read read = {}) {
     Column& made = columns.emplace_back(Column{"", std::move(its_heading)});
     for (const T& row : rows_) made.texts.push_back(read_as(std::invoke(get, row), read));
     return *this;
-  }
-  template <class Get>
-  RowsOf& only_for_people(std::string its_heading, Get get, ReadAs read) {
-    return only_for_people<Get, ReadAs>(std::move(its_heading), std::move(get), read);
   }
   template <class Get>
   RowsOf& only_for_programs(std::string its_key, Get get) {
