@@ -9,6 +9,7 @@
 #include <fstream>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -128,6 +129,33 @@ Status guarded(Component* c, const char* function, unsigned allowed, const Do& a
   });
 }
 
+// What functions of both versions do.
+inline void set_debug_logging(Component& c, bool on, std::size_t count, const char* const categories[]) {
+  std::vector<std::string> wanted;
+  for (std::size_t k = 0; k < count; ++k) wanted.emplace_back(categories[k] ? categories[k] : "");
+  c.log_only(on, std::move(wanted));
+}
+inline void set_up_experiment(Component& c, bool tolerance_defined, double tolerance, double start, bool stop_defined,
+                              double stop) {
+  if (!std::isfinite(start) || (stop_defined && !(stop >= start)))
+    throw std::invalid_argument("the simulation must end behind its start");
+  if (tolerance_defined && !(tolerance > 0)) throw std::invalid_argument("the tolerance must be positive");
+  c.instance->set_up(start, tolerance_defined ? std::optional(tolerance) : std::nullopt);
+}
+inline void end_initialisation(Component& c) {
+  c.instance->begin();
+  c.phase = c.co_simulation ? step_mode : event_mode;
+  c.last_time = c.instance->time();
+}
+inline void reset(Component& c) {
+  c.instance->reset();
+  c.phase = instantiated;
+}
+inline void set_time(Component& c, double t) {
+  if (!std::isfinite(t)) throw std::invalid_argument("the time is no number");
+  c.instance->set_time(t);
+}
+
 // All of an instance as an importer keeps it, and as bytes: the phase, the time, and what the instance says of itself.
 struct Kept {
   InstanceState state;
@@ -175,6 +203,12 @@ inline void* deserialise(Component& c, const void* bytes, std::size_t size) {
 
 // A communication point differs from where the last step ended by round-off at most.
 inline bool is_at(double point, double t) { return std::abs(point - t) <= 1e-9 * std::max(1.0, std::abs(t)); }
+
+inline void check_step(const Component& c, double point, double step) {
+  if (!is_at(point, c.instance->time()))
+    throw std::invalid_argument(fmt::format("the step begins at {:.9g} s, where the instance is not", point));
+  if (!(step > 0) || !std::isfinite(step)) throw std::invalid_argument("the step must be longer than 0");
+}
 
 inline Status rates_of(Component& c, std::span<double> rates) {
   if (c.instance->derivatives(rates)) return Status::ok;

@@ -62,11 +62,8 @@ KURBEL_FMI_EXPORT const char* fmi2GetVersion() { return "2.0"; }
 
 KURBEL_FMI2 fmi2SetDebugLogging(fmi2Component component, fmi2Boolean on, std::size_t count,
                                 const fmi2String categories[]) {
-  return call2(component, "fmi2SetDebugLogging", anywhere, [&](Component& c) {
-    std::vector<std::string> wanted;
-    for (std::size_t k = 0; k < count; ++k) wanted.emplace_back(categories[k] ? categories[k] : "");
-    c.log_only(on != 0, std::move(wanted));
-  });
+  return call2(component, "fmi2SetDebugLogging", anywhere,
+               [&](Component& c) { set_debug_logging(c, on, count, categories); });
 }
 
 KURBEL_FMI_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String token, fmi2String location,
@@ -97,31 +94,20 @@ KURBEL_FMI_EXPORT void fmi2FreeInstance(fmi2Component component) { delete of2(co
 
 KURBEL_FMI2 fmi2SetupExperiment(fmi2Component component, fmi2Boolean tolerance_defined, fmi2Real tolerance,
                                 fmi2Real start, fmi2Boolean stop_defined, fmi2Real stop) {
-  return call2(component, "fmi2SetupExperiment", instantiated, [&](Component& c) {
-    if (!std::isfinite(start) || (stop_defined && !(stop >= start)))
-      throw std::invalid_argument("the simulation must end behind its start");
-    if (tolerance_defined && !(tolerance > 0)) throw std::invalid_argument("the tolerance must be positive");
-    c.instance->set_up(start, tolerance_defined ? std::optional(tolerance) : std::nullopt);
-  });
+  return call2(component, "fmi2SetupExperiment", instantiated,
+               [&](Component& c) { set_up_experiment(c, tolerance_defined, tolerance, start, stop_defined, stop); });
 }
 KURBEL_FMI2 fmi2EnterInitializationMode(fmi2Component component) {
   return call2(component, "fmi2EnterInitializationMode", instantiated, [](Component& c) { c.phase = initialisation; });
 }
 KURBEL_FMI2 fmi2ExitInitializationMode(fmi2Component component) {
-  return call2(component, "fmi2ExitInitializationMode", initialisation, [](Component& c) {
-    c.instance->begin();
-    c.phase = c.co_simulation ? step_mode : event_mode;
-    c.last_time = c.instance->time();
-  });
+  return call2(component, "fmi2ExitInitializationMode", initialisation, [](Component& c) { end_initialisation(c); });
 }
 KURBEL_FMI2 fmi2Terminate(fmi2Component component) {
   return call2(component, "fmi2Terminate", running, [](Component& c) { c.phase = terminated; });
 }
 KURBEL_FMI2 fmi2Reset(fmi2Component component) {
-  return call2(component, "fmi2Reset", anywhere, [](Component& c) {
-    c.instance->reset();
-    c.phase = instantiated;
-  });
+  return call2(component, "fmi2Reset", anywhere, [](Component& c) { reset(c); });
 }
 
 // --- variables (2.1.7) ---
@@ -216,10 +202,7 @@ KURBEL_FMI2 fmi2CompletedIntegratorStep(fmi2Component component, fmi2Boolean, fm
   });
 }
 KURBEL_FMI2 fmi2SetTime(fmi2Component component, fmi2Real t) {
-  return call2(component, "fmi2SetTime", continuous_time | event_mode, [&](Component& c) {
-    if (!std::isfinite(t)) throw std::invalid_argument("the time is no number");
-    c.instance->set_time(t);
-  });
+  return call2(component, "fmi2SetTime", continuous_time | event_mode, [&](Component& c) { set_time(c, t); });
 }
 KURBEL_FMI2 fmi2SetContinuousStates(fmi2Component component, const fmi2Real states[], std::size_t count) {
   return call2(component, "fmi2SetContinuousStates", continuous_time, [&](Component& c) {
@@ -271,9 +254,7 @@ KURBEL_FMI2 fmi2GetRealOutputDerivatives(fmi2Component component, const fmi2Valu
 }
 KURBEL_FMI2 fmi2DoStep(fmi2Component component, fmi2Real point, fmi2Real step, fmi2Boolean) {
   return call2(component, "fmi2DoStep", step_mode, [&](Component& c) {
-    if (!is_at(point, c.instance->time()))
-      throw std::invalid_argument(fmt::format("the step begins at {:.9g} s, where the instance is not", point));
-    if (!(step > 0) || !std::isfinite(step)) throw std::invalid_argument("the step must be longer than 0");
+    check_step(c, point, step);
     c.last_time = c.instance->go(step, nullptr);
     c.log_events();
   });

@@ -44,11 +44,8 @@ KURBEL_FMI_EXPORT const char* fmi3GetVersion() { return "3.0"; }
 
 KURBEL_FMI3 fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on, std::size_t count,
                                 const fmi3String categories[]) {
-  return call3(instance, "fmi3SetDebugLogging", anywhere, [&](Component& c) {
-    std::vector<std::string> wanted;
-    for (std::size_t k = 0; k < count; ++k) wanted.emplace_back(categories[k] ? categories[k] : "");
-    c.log_only(on, std::move(wanted));
-  });
+  return call3(instance, "fmi3SetDebugLogging", anywhere,
+               [&](Component& c) { set_debug_logging(c, on, count, categories); });
 }
 
 KURBEL_FMI_EXPORT fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String folder,
@@ -97,20 +94,13 @@ KURBEL_FMI_EXPORT void fmi3FreeInstance(fmi3Instance instance) { delete of3(inst
 KURBEL_FMI3 fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean tolerance_defined, fmi3Float64 tolerance,
                                         fmi3Float64 start, fmi3Boolean stop_defined, fmi3Float64 stop) {
   return call3(instance, "fmi3EnterInitializationMode", instantiated, [&](Component& c) {
-    if (!std::isfinite(start) || (stop_defined && !(stop >= start)))
-      throw std::invalid_argument("the simulation must end behind its start");
-    if (tolerance_defined && !(tolerance > 0)) throw std::invalid_argument("the tolerance must be positive");
-    c.instance->set_up(start, tolerance_defined ? std::optional(tolerance) : std::nullopt);
+    set_up_experiment(c, tolerance_defined, tolerance, start, stop_defined, stop);
     c.phase = initialisation;
   });
 }
 
 KURBEL_FMI3 fmi3ExitInitializationMode(fmi3Instance instance) {
-  return call3(instance, "fmi3ExitInitializationMode", initialisation, [](Component& c) {
-    c.instance->begin();
-    c.phase = c.co_simulation ? step_mode : event_mode;
-    c.last_time = c.instance->time();
-  });
+  return call3(instance, "fmi3ExitInitializationMode", initialisation, [](Component& c) { end_initialisation(c); });
 }
 
 KURBEL_FMI3 fmi3EnterEventMode(fmi3Instance instance) {
@@ -122,10 +112,7 @@ KURBEL_FMI3 fmi3Terminate(fmi3Instance instance) {
 }
 
 KURBEL_FMI3 fmi3Reset(fmi3Instance instance) {
-  return call3(instance, "fmi3Reset", anywhere & ~within_step, [](Component& c) {
-    c.instance->reset();
-    c.phase = instantiated;
-  });
+  return call3(instance, "fmi3Reset", anywhere & ~within_step, [](Component& c) { reset(c); });
 }
 
 // --- variables (2.2.6) ---
@@ -225,10 +212,7 @@ KURBEL_FMI3 fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean, fmi3
   });
 }
 KURBEL_FMI3 fmi3SetTime(fmi3Instance instance, fmi3Float64 t) {
-  return call3(instance, "fmi3SetTime", continuous_time | event_mode, [&](Component& c) {
-    if (!std::isfinite(t)) throw std::invalid_argument("the time is no number");
-    c.instance->set_time(t);
-  });
+  return call3(instance, "fmi3SetTime", continuous_time | event_mode, [&](Component& c) { set_time(c, t); });
 }
 KURBEL_FMI3 fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 states[], std::size_t count) {
   return call3(instance, "fmi3SetContinuousStates", continuous_time, [&](Component& c) {
@@ -274,9 +258,7 @@ KURBEL_FMI3 fmi3DoStep(fmi3Instance instance, fmi3Float64 point, fmi3Float64 ste
                        fmi3Boolean* event_handling_needed, fmi3Boolean* terminate, fmi3Boolean* early_return,
                        fmi3Float64* last_time) {
   return call3(instance, "fmi3DoStep", step_mode, [&](Component& c) {
-    if (!is_at(point, c.instance->time()))
-      throw std::invalid_argument(fmt::format("the step begins at {:.9g} s, where the instance is not", point));
-    if (!(step > 0) || !std::isfinite(step)) throw std::invalid_argument("the step must be longer than 0");
+    check_step(c, point, step);
     *event_handling_needed = *terminate = *early_return = false;
     const double to = c.instance->time() + step;
     *last_time = c.instance->go(step, c.look);
