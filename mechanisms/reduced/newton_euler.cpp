@@ -245,7 +245,6 @@ LinkageForces motion_in(const PlanarLinkage& l, const LinkageState& state) {
   const Real w = state.omega;
   f.output = rounded(l.output[0]);
   f.output_velocity = rounded(l.output[1] * w);
-  f.output_acceleration = rounded(l.output[2] * w * w + l.output[1] * state.alpha);
   for (int i = 0; i < l.body_count; ++i) add_link(l.bodies[i], f);
   return f;
 }

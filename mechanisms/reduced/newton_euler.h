@@ -72,11 +72,11 @@ struct JointForces {
 
 struct LinkageForces {
   LinkageState state;
-  double output = 0, output_velocity = 0, output_acceleration = 0;  // [m] or [rad]
-  std::vector<LinkForces> links;                                    // the crank first, the output last
-  std::vector<JointForces> joints;                                  // empty: their reactions are undetermined
-  double torque = 0;          // of the shaft on the crank, positive counter-clockwise [N·m]
-  Force2 shaking_force;       // of all inertia forces, on the frame [N]
+  double output = 0, output_velocity = 0;  // [m] or [rad]
+  std::vector<LinkForces> links;           // the crank first, the output last
+  std::vector<JointForces> joints;         // empty: their reactions are undetermined
+  double torque = 0;                       // of the shaft on the crank, positive counter-clockwise [N·m]
+  Force2 shaking_force;                    // of all inertia forces, on the frame [N]
   double shaking_moment = 0;  // of all inertia forces and couples about the crank's axis, on the frame [N·m]
   double reduced_inertia = 0, kinetic_energy = 0;             // I_r [kg·m²]; T [J]
   double kinetic_rate = 0, weight_power = 0, load_power = 0;  // dT/dt and powers on the mechanism [W]; load

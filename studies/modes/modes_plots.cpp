@@ -16,7 +16,7 @@
 namespace kurbel::modes {
 namespace {
 
-constexpr std::size_t shapes_shown = 6, lines_shown = 12;
+constexpr std::size_t shapes_shown = 6;
 
 // "Shafts: 1 motor, 2 rear, …"
 std::string numbered(const std::vector<std::string>& names, const std::string& begin = "") {
