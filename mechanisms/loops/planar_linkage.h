@@ -56,14 +56,10 @@ struct ClosedForm {
 };
 ClosedForm closed_form_of(const PlanarLinkage& linkage);
 
-// A function of φ with its first derivative by φ, or with two.
+// A function of φ with its first derivative by φ.
 template <class T>
 struct ValueAndSlope {
   T value, slope;
-};
-template <class T>
-struct ValueSlopeCurvature {
-  T value, slope, curvature;
 };
 
 }  // namespace kurbel

@@ -9,6 +9,11 @@
 
 namespace kurbel {
 
+template <class T>
+struct ValueSlopeCurvature {
+  T value, slope, curvature;
+};
+
 // Closed form over T = double, long double or a dual number with sin, cos, sqrt, + − · / and comparison by value.
 class SliderCrankGeometry {
  public:
