@@ -7,16 +7,22 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "tests/mechanisms/slider_crank_pose.h"
+#include "tests/mechanisms/slider_crank_geometry.h"
 #include "tests/mechanisms/slider_crank_statics_friction.h"
 
 namespace kurbel {
 namespace {
 
+using Pose = SliderCrankGeometry::Pose<double>;
+Pose pose_of(SliderCrankData d, bool changes, double phi) {
+  if (changes) d.rod_length = d.radius + std::fabs(d.offset);
+  return {d, changes, phi};
+}
+
 // Sines and cosines of a position, and the motion ratios of every centre of mass.
 struct Position {
-  Position(const SliderCrankData& d, bool changes, double phi) : Position(SliderCrankPose<double>(d, changes, phi)) {}
-  explicit Position(const SliderCrankPose<double>& p)
+  Position(const SliderCrankData& d, bool changes, double phi) : Position(pose_of(d, changes, phi)) {}
+  explicit Position(const Pose& p)
       : beta1(p.beta1),
         beta2(p.beta2),
         slider{p.x, p.x1, p.x2},
@@ -170,7 +176,7 @@ SliderCrankStatics::Table SliderCrankStatics::unit_cases(double phi) const {
 }
 
 SliderCrankStatics::Rates SliderCrankStatics::rates(double phi, double omega) const {
-  const SliderCrankPose<double> p(data_, changes_, phi);
+  const Pose p = pose_of(data_, changes_, phi);
   const double rod = p.beta1 * omega;
   return {omega, rod - omega, -rod, p.x1 * omega};
 }
