@@ -1,5 +1,4 @@
 // command_line_test.cpp — the program as its users meet it: exit codes, messages, files, Ctrl-C.
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <pty.h>
 #include <signal.h>
@@ -16,7 +15,7 @@
 #include <thread>
 
 #include "tests/support/files.h"
-#include "tests/support/started.h"
+#include "tests/support/program.h"
 
 namespace kurbel::command_line_test {
 namespace {
@@ -24,55 +23,20 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+using test::Ended;
 using test::text_of;
 
-struct Ended {
-  int code = -1;
-  std::string out, err;
-};
-
-class CommandLine : public testing::Test {
+class CommandLine : public test::ProgramTest {
  protected:
-  CommandLine() {
-    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-    folder_ = fs::temp_directory_path() / ("kurbel_cli_" + name + "_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  ~CommandLine() override { fs::remove_all(folder_); }
-
-  // Starts the program in the test's folder.
-  pid_t start(const std::vector<std::string>& arguments) {
-    const pid_t child = fork();
-    if (child != 0) return child;
-    if (chdir(folder_.c_str()) != 0) _exit(99);
-    dup2(open("stdout", O_CREAT | O_WRONLY | O_TRUNC, 0644), STDOUT_FILENO);
-    dup2(open("stderr", O_CREAT | O_WRONLY | O_TRUNC, 0644), STDERR_FILENO);
-    std::vector<char*> argv = {const_cast<char*>("kurbel")};
-    for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
-    argv.push_back(nullptr);
-    execv(KURBEL_EXECUTABLE, argv.data());
-    _exit(98);
-  }
-  Ended wait(pid_t child) {
-    int status = 0;
-    waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder_ / "stdout"), text_of(folder_ / "stderr")};
-  }
-  Ended kurbel(const std::vector<std::string>& arguments) { return wait(start(arguments)); }
-
-  // The same on a terminal of its own; what it shows is all of its output.
+  // The program on a terminal of its own; what it shows is all of its output.
   std::string on_terminal(const std::vector<std::string>& arguments, bool no_colour = false) {
     int terminal = -1;
     const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
     if (child == 0) {
-      if (chdir(folder_.c_str()) != 0) _exit(99);
+      if (chdir(folder_.path.c_str()) != 0) _exit(99);
       setenv("TERM", "xterm", 1);
       no_colour ? setenv("NO_COLOR", "1", 1) : unsetenv("NO_COLOR");
-      std::vector<char*> argv = {const_cast<char*>("kurbel")};
-      for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
-      argv.push_back(nullptr);
-      execv(KURBEL_EXECUTABLE, argv.data());
-      _exit(98);
+      test::become_program(arguments);
     }
     std::string shown;
     char piece[4096];
@@ -96,8 +60,6 @@ class CommandLine : public testing::Test {
     return "scene.toml";
   }
   bool file(const std::string& name) const { return fs::exists(folder_ / name); }
-
-  fs::path folder_;
 };
 
 TEST_F(CommandLine, ValidRunEndsWithZeroAndWritesItsFiles) {

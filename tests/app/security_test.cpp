@@ -25,8 +25,8 @@
 #include "engine/scene/document.h"
 #include "engine/tables/table_text.h"
 #include "tests/support/files.h"
+#include "tests/support/program.h"
 #include "tests/support/sanitized.h"
-#include "tests/support/started.h"
 
 namespace kurbel::security_test {
 namespace {
@@ -40,44 +40,11 @@ void write_text(const fs::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-struct Ended {
-  int code = -1;  // −1: by a signal
-  std::string out, err;
-};
+using test::Ended;
 
-class Security : public testing::Test {
+class Security : public test::ProgramTest {
  protected:
-  Security() {
-    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-    folder_ = fs::canonical(fs::temp_directory_path()) / ("kurbel_security_" + name + "_" + std::to_string(getpid()));
-    fs::create_directories(folder_ / "scene");
-  }
-  ~Security() override { fs::remove_all(folder_); }
-
-  using Prepare = std::function<void()>;  // in the child, before the program
-
-  // The program, in the folder of the scene; its streams go beside that folder.
-  pid_t start(const std::vector<std::string>& words, const Prepare& prepare = {}) {
-    const pid_t child = fork();
-    if (child != 0) return child;
-    if (chdir((folder_ / "scene").c_str()) != 0) _exit(99);
-    dup2(open("../stdout", O_CREAT | O_WRONLY | O_TRUNC, 0644), STDOUT_FILENO);
-    dup2(open("../stderr", O_CREAT | O_WRONLY | O_TRUNC, 0644), STDERR_FILENO);
-    if (prepare) prepare();
-    std::vector<char*> argv = {const_cast<char*>("kurbel")};
-    for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
-    argv.push_back(nullptr);
-    execv(KURBEL_EXECUTABLE, argv.data());
-    _exit(98);
-  }
-  Ended wait(pid_t child) {
-    int status = 0;
-    waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder_ / "stdout"), text_of(folder_ / "stderr")};
-  }
-  Ended kurbel(const std::vector<std::string>& words, const Prepare& prepare = {}) {
-    return wait(start(words, prepare));
-  }
+  Security() : ProgramTest("scene") {}
 
   // scene/NAME, whose torque stands in a data file.
   void scene_with_data(const std::string& name, const std::string& file) {
@@ -113,8 +80,6 @@ class Security : public testing::Test {
     }
     return files;
   }
-
-  fs::path folder_;
 };
 
 constexpr const char* table = "0,0\n1,5\n2,5\n";
@@ -209,7 +174,7 @@ TEST_F(Security, HasNothingWrittenButWhatTheCommandLineNames) {
     return words;
   };
   const auto before = all_files();
-  const auto home = [this] { setenv("HOME", folder_.c_str(), 1), setenv("TMPDIR", folder_.c_str(), 1); };
+  const auto home = [this] { setenv("HOME", folder_.path.c_str(), 1), setenv("TMPDIR", folder_.path.c_str(), 1); };
   for (const auto& verb : verbs) {
     const bool files = verb[0] != "check" && verb[0] != "figures";
     const Ended r =

@@ -15,60 +15,28 @@
 #include <thread>
 
 #include "tests/support/files.h"
+#include "tests/support/program.h"
 
 namespace kurbel::streams_test {
 namespace {
 
 namespace fs = std::filesystem;
 
+using test::Ended;
 using test::text_of;
 
-struct Ended {
-  int code = -1, signal = 0;
-  std::string out, err;
-};
-
-class Streams : public testing::Test {
+class Streams : public test::ProgramTest {
  protected:
   Streams() {
-    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-    folder_ = fs::temp_directory_path() / ("kurbel_streams_" + name + "_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
     // A pulsation: without one the steps would grow without limit.
     std::ofstream(folder_ / "wheel.toml")
         << "line = [\"wheel\"]\nwheel = { kind = \"flywheel\", inertia = \"1 kg*m2\" }\n"
            "pulse = { kind = \"torque source\", amplitude = \"5 N*m\", frequency = \"5 Hz\", on = \"wheel\" }\n"
            "run = { until = \"1 s\", start = { speed = \"1 rad/s\" } }\n";
   }
-  ~Streams() override { fs::remove_all(folder_); }
-
-  pid_t start(const std::vector<std::string>& words, const std::function<void()>& prepare = {}) {
-    const pid_t child = fork();
-    if (child != 0) return child;
-    if (chdir(folder_.c_str()) != 0) _exit(99);
-    dup2(open("stdout", O_CREAT | O_WRONLY | O_TRUNC, 0644), STDOUT_FILENO);
-    dup2(open("stderr", O_CREAT | O_WRONLY | O_TRUNC, 0644), STDERR_FILENO);
-    if (prepare) prepare();
-    std::vector<char*> argv = {const_cast<char*>("kurbel")};
-    for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
-    argv.push_back(nullptr);
-    execv(KURBEL_EXECUTABLE, argv.data());
-    _exit(98);
-  }
-  Ended wait(pid_t child) {
-    int status = 0;
-    waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, WIFSIGNALED(status) ? WTERMSIG(status) : 0,
-            text_of(folder_ / "stdout"), text_of(folder_ / "stderr")};
-  }
-  Ended kurbel(const std::vector<std::string>& words, const std::function<void()>& prepare = {}) {
-    return wait(start(words, prepare));
-  }
   static std::function<void()> onto_full(int stream) {
     return [stream] { dup2(open("/dev/full", O_WRONLY), stream); };
   }
-
-  fs::path folder_;
 };
 
 TEST_F(Streams, LossOfWhatWasSaidIsReportedAndNoSuccess) {
@@ -197,7 +165,7 @@ TEST_F(Streams, ScenesOfOddNamesAreReadAndCompletionDoesNotWaitForThem) {
   for (const std::string name : {"x=1.toml", "./x=1.toml", ".toml", "-x.toml", "pipe.toml", "absent.toml"}) {
     const pid_t child = fork();
     if (child == 0) {
-      if (chdir(folder_.c_str()) != 0) _exit(99);
+      if (chdir(folder_.path.c_str()) != 0) _exit(99);
       dup2(nobody_writes[0], STDIN_FILENO);
       dup2(open("completed", O_CREAT | O_WRONLY | O_TRUNC, 0644), STDOUT_FILENO);
       const std::string command = "source '" + script + "'; COMP_WORDS=(kurbel run '" + name +

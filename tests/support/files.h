@@ -1,9 +1,11 @@
-// files.h — files as texts.
+// files.h — files as texts; a folder for a test's own.
 #pragma once
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 namespace kurbel::test {
@@ -15,5 +17,23 @@ inline std::string text_of(const std::filesystem::path& path) {
   text << in.rdbuf();
   return text.str();
 }
+
+// An empty folder, which goes away at the end with all that is in it.
+struct ScratchFolder {
+  const std::filesystem::path path = made();
+  ScratchFolder() = default;
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder() { std::filesystem::remove_all(path); }
+  operator const std::filesystem::path&() const { return path; }
+  std::filesystem::path operator/(const std::filesystem::path& name) const { return path / name; }
+
+ private:
+  static std::filesystem::path made() {
+    std::string pattern = std::filesystem::canonical(std::filesystem::temp_directory_path()) / "kurbel_XXXXXX";
+    if (!mkdtemp(pattern.data())) throw std::runtime_error("no folder: " + pattern);
+    return pattern;
+  }
+};
 
 }  // namespace kurbel::test
