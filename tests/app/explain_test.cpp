@@ -1,31 +1,16 @@
 // explain_test.cpp — kurbel explain on the command line.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <string>
+
+#include "tests/support/program.h"
 
 namespace kurbel::explain_test {
 namespace {
 
-struct Said {
-  int code = -1;
-  std::string text;  // stdout and stderr
-  bool has(const std::string& words) const { return text.find(words) != std::string::npos; }
-};
+using test::Said;
 
-Said explain(const std::string& arguments) {
-  const std::string command = fmt::format("{} explain {} 2>&1", KURBEL_EXECUTABLE, arguments);
-  Said said;
-  FILE* pipe = popen(command.c_str(), "r");
-  std::array<char, 4096> part;
-  while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) said.text.append(part.data(), n);
-  const int status = pclose(pipe);
-  said.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return said;
-}
+Said explain(const std::string& arguments) { return test::said_by_program("explain " + arguments); }
 
 TEST(Explain, SaysWhatAFigureIsItsFormulaAndWhatItIsNot) {
   for (const char* asked : {"delta", "delta.press", "δ", "\"speed fluctuation\""}) {

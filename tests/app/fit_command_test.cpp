@@ -1,29 +1,16 @@
 // fit_command_test.cpp — kurbel fit on the command line: exit codes, places of what is wrong.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <string>
+
+#include "tests/support/program.h"
 
 namespace kurbel::fit_command_test {
 namespace {
 
-struct Said {
-  int code = -1;
-  std::string text;  // stdout and stderr
-};
+using test::Said;
 
-Said kurbel(const std::string& arguments) {
-  const std::string command = std::string(KURBEL_EXECUTABLE) + " fit " + arguments + " 2>&1";
-  Said said;
-  FILE* pipe = popen(command.c_str(), "r");
-  std::array<char, 4096> part;
-  while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) said.text.append(part.data(), n);
-  const int status = pclose(pipe);
-  said.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return said;
-}
+Said kurbel(const std::string& arguments) { return test::said_by_program("fit " + arguments); }
 
 const std::string tasks = std::string(KURBEL_SOURCE_DIR) + "/docs/tasks/";
 const std::string set = tasks + "fit_set.toml --measured " + tasks + "fit_set_1500.csv ";

@@ -1,33 +1,20 @@
 // sheet_command_test.cpp — kurbel reduce --sheet and kurbel forces --sheet on the command line: the file, exit codes, words.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
+
+#include "tests/support/program.h"
 
 namespace kurbel::sheet_command_test {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Said {
-  int code = -1;
-  std::string text;  // stdout and stderr
-};
-
-Said kurbel(const std::string& arguments) {
-  FILE* const pipe = popen((std::string(KURBEL_EXECUTABLE) + " " + arguments + " 2>&1").c_str(), "r");
-  Said said;
-  std::array<char, 4096> part{};
-  while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) said.text.append(part.data(), n);
-  const int status = pclose(pipe);
-  said.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return said;
-}
+using test::Said;
+constexpr auto kurbel = test::said_by_program;
 
 const std::string scenes = std::string(KURBEL_SOURCE_DIR) + "/scenes/";
 

@@ -1,35 +1,21 @@
 // size_command_test.cpp — kurbel reduce and kurbel size on the command line: exit codes, files, words.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "tests/support/program.h"
 
 namespace kurbel::size_command_test {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Said {
-  int code = -1;
-  std::string text;  // stdout and stderr
-};
-
-Said kurbel(const std::string& arguments) {
-  const std::string command = std::string(KURBEL_EXECUTABLE) + " " + arguments + " 2>&1";
-  Said said;
-  FILE* pipe = popen(command.c_str(), "r");
-  std::array<char, 4096> part;
-  while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) said.text.append(part.data(), n);
-  const int status = pclose(pipe);
-  said.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return said;
-}
+using test::Said;
+constexpr auto kurbel = test::said_by_program;
 
 const std::string press = std::string(KURBEL_SOURCE_DIR) + "/scenes/crank_press.toml";
 

@@ -2,16 +2,14 @@
 // written, resuming, shards of a SLURM array.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "studies/sweep/sweep_findings.h"
+#include "tests/support/program.h"
 #include "tests/support/sweep_rows.h"
 
 namespace kurbel::sweep_command_test {
@@ -19,20 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Said {
-  int code = -1;
-  std::string text;  // stdout and stderr
-};
-
-Said shell(const std::string& line) {
-  Said said;
-  FILE* pipe = popen((line + " 2>&1").c_str(), "r");
-  std::array<char, 4096> part;
-  while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) said.text.append(part.data(), n);
-  const int status = pclose(pipe);
-  said.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return said;
-}
+using test::Said;
 
 class SweepCommand : public ::testing::Test {
  protected:
@@ -50,7 +35,7 @@ class SweepCommand : public ::testing::Test {
   ~SweepCommand() override { fs::remove_all(folder_); }
 
   Said kurbel(const std::string& arguments) const {
-    return shell(fmt::format("cd '{}' && {} {}", folder_.string(), KURBEL_EXECUTABLE, arguments));
+    return test::said_by(fmt::format("cd '{}' && {} {}", folder_.string(), KURBEL_EXECUTABLE, arguments));
   }
   // `more`: its own design and the rest.
   Said sweep(const std::string& more) const {
@@ -172,7 +157,7 @@ TEST_F(SweepCommand, WritesAReportThatReproducesItsWorstMachine) {
 TEST_F(SweepCommand, ShardsOfASlurmArrayMergedAreOneSweep) {
   ASSERT_EQ(sweep("--into whole.db " + varied + "--design sobol:21").code, 0);
   for (int task = 3; task <= 6; ++task) {
-    const Said said = shell(fmt::format(
+    const Said said = test::said_by(fmt::format(
         "cd '{}' && KURBEL='{}' TMPDIR='{}' SLURM_ARRAY_TASK_ID={} SLURM_ARRAY_TASK_MIN=3 SLURM_ARRAY_TASK_COUNT=4 "
         "'{}/scripts/sweep.slurm' results two.toml --figures peak_torque {} --design sobol:21",
         folder_.string(), KURBEL_EXECUTABLE, folder_.string(), task, KURBEL_SOURCE_DIR, varied));
@@ -193,8 +178,8 @@ TEST_F(SweepCommand, ShardsOfASlurmArrayMergedAreOneSweep) {
 
 // A short form of what scripts/sweep-kills does with 200 kills.
 TEST_F(SweepCommand, KillsAtRandomMomentsLoseNothingThatWasCommitted) {
-  const Said said = shell(fmt::format("'{}/scripts/sweep-kills' --kills 12 --rows 300 --program '{}'",
-                                      KURBEL_SOURCE_DIR, KURBEL_EXECUTABLE));
+  const Said said = test::said_by(fmt::format("'{}/scripts/sweep-kills' --kills 12 --rows 300 --program '{}'",
+                                              KURBEL_SOURCE_DIR, KURBEL_EXECUTABLE));
   EXPECT_EQ(said.code, 0) << said.text;
   EXPECT_NE(said.text.find("nothing committed was lost"), std::string::npos) << said.text;
 }
@@ -202,7 +187,7 @@ TEST_F(SweepCommand, KillsAtRandomMomentsLoseNothingThatWasCommitted) {
 // In the foreground: else timeout interrupts twice, the program and its group, and a second interrupt ends at once.
 TEST_F(SweepCommand, AnInterruptKeepsWhatIsDone) {
   const std::string design = varied + "--design sobol:200000 ";
-  const Said said = shell(fmt::format(
+  const Said said = test::said_by(fmt::format(
       "{{ cd '{}' && timeout --foreground -s INT 1 {} sweep two.toml --no-files --figures peak_torque --into r.db {} "
       "--jobs 2; }}",
       folder_.string(), KURBEL_EXECUTABLE, design));

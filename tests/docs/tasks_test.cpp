@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/program.h"
 #include "tests/support/thorough.h"
 
 namespace kurbel::tasks_test {
@@ -48,13 +49,10 @@ std::vector<Command> commands_of(const fs::path& page) {
 
 // What a command prints in a folder that has the tasks' scenes.
 std::string output_of(const std::string& arguments, const fs::path& where) {
-  const std::string command = "cd '" + where.string() + "' && '" KURBEL_EXECUTABLE "' " + arguments + " 2>/dev/null";
-  FILE* const pipe = popen(command.c_str(), "r");
-  std::string text;
-  char part[4096];
-  for (std::size_t n = 0; (n = fread(part, 1, sizeof part, pipe)) > 0;) text.append(part, n);
-  EXPECT_EQ(pclose(pipe), 0) << arguments;
-  return text;
+  const test::Said said =
+      test::said_by("(cd '" + where.string() + "' && '" KURBEL_EXECUTABLE "' " + arguments + " 2>/dev/null)");
+  EXPECT_EQ(said.code, 0) << arguments;
+  return said.text;
 }
 
 // The short form takes one of several commands that are alike but for the values that they set and how much they print.

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -16,6 +14,7 @@
 #include <vector>
 
 #include "tests/fmi/importer.h"
+#include "tests/support/program.h"
 
 namespace exported_components {
 
@@ -28,13 +27,9 @@ struct Folder {
 };
 
 inline std::string command(const std::string& line, int expected = 0) {
-  std::FILE* const pipe = popen((line + " 2>&1").c_str(), "r");
-  std::string text;
-  char part[4096];
-  while (const std::size_t got = std::fread(part, 1, sizeof part, pipe)) text.append(part, got);
-  const int code = pclose(pipe);
-  EXPECT_EQ(WEXITSTATUS(code), expected) << line << "\n" << text;
-  return text;
+  const kurbel::test::Said said = kurbel::test::said_by(line);
+  EXPECT_EQ(said.code, expected) << line << "\n" << said.text;
+  return said.text;
 }
 
 inline std::string scene(const std::string& name) {

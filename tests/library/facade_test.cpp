@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/program.h"
 #include "tests/support/sanitized.h"
 
 namespace kurbel::facade_test {
@@ -320,15 +321,12 @@ TEST(Facade, WhatAStudyDoesNotAskForIsRefusedWithWhatItHas) {
 // Names that a line of the command begins with: "--mid-speed" is mid_speed.
 std::set<std::string> options_of_command(const std::string& command) {
   std::set<std::string> names;
-  FILE* const pipe = popen((std::string(KURBEL_EXECUTABLE) + " commands " + command).c_str(), "r");
-  char line[256];
-  while (std::fgets(line, sizeof line, pipe)) {
-    std::string name(line, std::strcspn(line, "\n"));
+  std::istringstream lines(test::said_by_program("commands " + command).text);
+  for (std::string name; std::getline(lines, name);) {
     if (!name.starts_with("--")) continue;
     std::replace(name.begin() + 2, name.end(), '-', '_');
     names.insert(name.substr(2));
   }
-  pclose(pipe);
   return names;
 }
 

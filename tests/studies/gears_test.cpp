@@ -4,14 +4,12 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "engine/model/model.h"
 #include "studies/report/render.h"
+#include "tests/support/program.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::gears_test {
@@ -123,19 +121,8 @@ TEST(GearsStudy, ReportDrawsWholeWheelsAndSaysTheNumbers) {
   EXPECT_NE(html_of(report).find("\"kind\":\"gears\""), std::string::npos);
 }
 
-struct Said {
-  int code = -1;
-  std::string text;
-};
-Said kurbel(const std::string& arguments) {
-  FILE* pipe = popen((std::string(KURBEL_EXECUTABLE) + " " + arguments + " 2>&1").c_str(), "r");
-  std::array<char, 4096> part;
-  Said said;
-  while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) said.text.append(part.data(), n);
-  const int status = pclose(pipe);
-  said.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return said;
-}
+using test::Said;
+constexpr auto kurbel = test::said_by_program;
 
 TEST(GearsCommand, PairAloneOnTheCommandLine) {
   const Said said = kurbel(

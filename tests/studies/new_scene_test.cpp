@@ -1,10 +1,7 @@
 // new_scene_test.cpp — scenes to start from run and balance; what helps to write them is complete.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -13,6 +10,7 @@
 
 #include "studies/scenes/templates.h"
 #include "tests/support/files.h"
+#include "tests/support/program.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::new_scene_test {
@@ -22,34 +20,18 @@ namespace fs = std::filesystem;
 
 using test::text_of;
 
-struct Said {
-  int code = -1;
-  std::string text;  // both streams
-};
+using test::Said;
 
 class NewScene : public testing::Test {
  protected:
-  NewScene() {
-    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-    folder_ = fs::temp_directory_path() / ("kurbel_new_" + name + "_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  ~NewScene() override { fs::remove_all(folder_); }
-
   Said kurbel(const std::string& arguments) const {
     return shell(std::string("'") + KURBEL_EXECUTABLE + "' " + arguments);
   }
   Said shell(const std::string& command) const {
-    FILE* pipe = popen(("cd '" + folder_.string() + "' && " + command + " 2>&1").c_str(), "r");
-    Said said;
-    std::array<char, 4096> buffer{};
-    for (std::size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) said.text.append(buffer.data(), n);
-    const int status = pclose(pipe);
-    said.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return said;
+    return test::said_by("cd '" + folder_.path.string() + "' && " + command);
   }
 
-  fs::path folder_;
+  const test::ScratchFolder folder_;
 };
 
 TEST_F(NewScene, IsWrittenOnceAndSaysWhatToDoNext) {
