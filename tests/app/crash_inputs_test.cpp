@@ -31,9 +31,6 @@ double seconds_of_children() {
 
 class CrashInputs : public testing::Test {
  protected:
-  CrashInputs() { fs::create_directories(folder_); }
-  ~CrashInputs() override { fs::remove_all(folder_); }
-
   Answer answer(const std::string& verb, const std::string& name, const std::string& more = "") const {
     const double before = seconds_of_children();
     const int status = std::system(fmt::format("cd '{}' && timeout 100 '{}' {} '{}' {} > out 2> err", folder_.string(),
@@ -54,7 +51,7 @@ class CrashInputs : public testing::Test {
     EXPECT_LT(a.seconds, 1) << verb;
   }
 
-  const fs::path folder_ = fs::temp_directory_path() / fmt::format("kurbel_crash_inputs_{}", getpid());
+  const test::ScratchFolder folder_;
 };
 
 TEST_F(CrashInputs, AnEmptyListIsRefusedByEveryCommand) {

@@ -1,6 +1,5 @@
 // explained_names_test.cpp — kurbel explain knows what stands in tables' headings and rows, on axes and at curves of pages.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fmt/format.h>
 #include <cstdlib>
@@ -9,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
-#include <sstream>
 
 #include "studies/dictionary/dictionary.h"
 #include "studies/dictionary/page_words.h"
+#include "tests/support/files.h"
 
 namespace kurbel::explained_names_test {
 namespace {
@@ -20,21 +19,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-std::string text_of(const fs::path& file) {
-  std::stringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
 // The data of the page that a command writes.
 Json page_of(const std::string& command) {
-  const fs::path folder = fs::temp_directory_path() / fmt::format("kurbel_names_{}", getpid());
-  fs::create_directories(folder);
+  const test::ScratchFolder folder;
   const std::string line = fmt::format("cd {0} && NAMES={3} && {1} {2} --out {3}/page > /dev/null 2>&1",
                                        KURBEL_SOURCE_DIR, KURBEL_EXECUTABLE, command, folder.string());
   EXPECT_EQ(std::system(line.c_str()), 0) << command;
-  const std::string html = text_of(folder / "page/report.html");
-  fs::remove_all(folder);
+  const std::string html = test::text_of(folder / "page/report.html");
   const std::string mark = "<script type=\"application/json\" id=\"data\">";
   const std::size_t begin = html.find(mark);
   if (begin == std::string::npos) return ADD_FAILURE() << command << ": no page", Json::object();
@@ -62,7 +53,7 @@ void collect(const std::string& command, Reported& reported) {
   std::string scene;
   static const std::regex file("[^ ]+\\.(toml|csv)");
   for (std::sregex_iterator i(command.begin(), command.end(), file), end; i != end; ++i)
-    scene += fmt::format("\n{}\n\"{}\" \"{}\"", text_of(fs::path(KURBEL_SOURCE_DIR) / i->str()), i->str(),
+    scene += fmt::format("\n{}\n\"{}\" \"{}\"", test::text_of(fs::path(KURBEL_SOURCE_DIR) / i->str()), i->str(),
                          fs::path(i->str()).stem().string());
   const bool in_radians = scene.find("rad/s\"") != std::string::npos;  // the scene's own unit
   const auto meet = [&](const std::string& name) {

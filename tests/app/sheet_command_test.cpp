@@ -1,11 +1,11 @@
 // sheet_command_test.cpp — kurbel reduce --sheet and kurbel forces --sheet on the command line: the file, exit codes, words.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <string>
 
+#include "tests/support/files.h"
 #include "tests/support/program.h"
 
 namespace kurbel::sheet_command_test {
@@ -19,7 +19,8 @@ constexpr auto kurbel = test::said_by_program;
 const std::string scenes = std::string(KURBEL_SOURCE_DIR) + "/scenes/";
 
 TEST(SheetCommand, TheSheetIsAFileOfTheResultSet) {
-  const fs::path folder = fs::temp_directory_path() / ("kurbel_sheet_" + std::to_string(getpid()));
+  const test::ScratchFolder scratch;
+  const fs::path folder = scratch / "sheet";
   for (const std::string command : {"reduce", "forces --no-run"}) {
     const Said said =
         kurbel(command + " " + scenes + "crank_press.toml --sheet --author 'N. N. <x>' --out " + folder.string());
@@ -36,7 +37,8 @@ TEST(SheetCommand, TheSheetIsAFileOfTheResultSet) {
 }
 
 TEST(SheetCommand, WhatCannotBeDrawnEndsWithTwoInWordsAndWritesNothing) {
-  const fs::path folder = fs::temp_directory_path() / ("kurbel_no_sheet_" + std::to_string(getpid()));
+  const test::ScratchFolder scratch;
+  const fs::path folder = scratch / "none";
   const auto refused = [&](const std::string& arguments, const std::string& words) {
     const Said said =
         kurbel(arguments + (arguments.find("--no-files") == std::string::npos ? " --out " + folder.string() : ""));

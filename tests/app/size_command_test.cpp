@@ -1,12 +1,11 @@
 // size_command_test.cpp — kurbel reduce and kurbel size on the command line: exit codes, files, words.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/files.h"
 #include "tests/support/program.h"
 
 namespace kurbel::size_command_test {
@@ -19,17 +18,6 @@ constexpr auto kurbel = test::said_by_program;
 
 const std::string press = std::string(KURBEL_SOURCE_DIR) + "/scenes/crank_press.toml";
 
-class Folder {
- public:
-  Folder() : path_(fs::temp_directory_path() / fmt::format("kurbel_size_{}", getpid())) {}
-  ~Folder() { fs::remove_all(path_); }
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-  std::string option() const { return " --out '" + path_.string() + "'"; }
-
- private:
-  fs::path path_;
-};
-
 TEST(SizeCommand, AnotherBasisIsRefusedWithThoseThatAre) {
   for (const std::string command : {"size", "reduce"}) {
     const Said said = kurbel(command + " " + press + " --basis regime");
@@ -39,8 +27,8 @@ TEST(SizeCommand, AnotherBasisIsRefusedWithThoseThatAre) {
 }
 
 TEST(SizeCommand, WritesAReportWithEveryFormulaAndEndsWithZero) {
-  const Folder folder;
-  const Said said = kurbel("size " + press + " --delta 0.08 --diagram '240 mm'" + folder.option());
+  const test::ScratchFolder folder;
+  const Said said = kurbel("size " + press + " --delta 0.08 --diagram '240 mm' --out '" + folder.string() + "'");
   EXPECT_EQ(said.code, 0) << said.text;
   EXPECT_NE(said.text.find("μ_φ"), std::string::npos);
   std::ifstream in(folder / "summary.json");
@@ -98,8 +86,8 @@ TEST(SizeCommand, CustomaryDeltaAndDiscWithoutSimulation) {
 }
 
 TEST(ReduceCommand, TablesAtAnyNumberOfPositionsAndRefusals) {
-  const Folder folder;
-  const Said said = kurbel("reduce " + press + " --positions 24 --to press.slider" + folder.option());
+  const test::ScratchFolder folder;
+  const Said said = kurbel("reduce " + press + " --positions 24 --to press.slider --out '" + folder.string() + "'");
   EXPECT_EQ(said.code, 0) << said.text;
   EXPECT_NE(said.text.find("dead centre"), std::string::npos);
   std::ifstream in(folder / "positions.csv");

@@ -2,13 +2,13 @@
 // written, resuming, shards of a SLURM array.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "studies/sweep/sweep_findings.h"
+#include "tests/support/files.h"
 #include "tests/support/program.h"
 #include "tests/support/sweep_rows.h"
 
@@ -21,9 +21,7 @@ using test::Said;
 
 class SweepCommand : public ::testing::Test {
  protected:
-  SweepCommand() : folder_(fs::temp_directory_path() / fmt::format("kurbel_sweep_command_{}", getpid())) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+  SweepCommand() {
     std::ofstream(folder_ / "two.toml")
         << "title = \"Two masses\"\nline = [\"rotor\", \"spring\", \"mass\"]\n"
            "rotor = { kind = \"inertia\", inertia = \"0.2 kg*m2\" }\n"
@@ -32,7 +30,6 @@ class SweepCommand : public ::testing::Test {
            "mass = { kind = \"inertia\", inertia = \"1.5 kg*m2\" }\n"
            "effects = { elasticity = true }\nrun = { until = \"0.1 s\" }\n";
   }
-  ~SweepCommand() override { fs::remove_all(folder_); }
 
   Said kurbel(const std::string& arguments) const {
     return test::said_by(fmt::format("cd '{}' && {} {}", folder_.string(), KURBEL_EXECUTABLE, arguments));
@@ -52,7 +49,7 @@ class SweepCommand : public ::testing::Test {
     }
   }
 
-  fs::path folder_;
+  const test::ScratchFolder folder_;
 };
 
 const std::string varied = "--vary 'spring.stiffness=3..5 kN*m/rad' --vary 'mass.inertia=1,1.5,2 kg*m2' ";

@@ -3,7 +3,6 @@
 // A page's blocks "```console" hold commands behind "$ " and, below each, lines of what it prints: each must occur in
 // the output, blanks counting as one; a line of "…" leaves some out.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -13,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/files.h"
 #include "tests/support/program.h"
 #include "tests/support/thorough.h"
 
@@ -65,11 +65,10 @@ class Task : public ::testing::TestWithParam<std::string> {};
 TEST_P(Task, EveryCommandSaysWhatThePageSays) {
   const std::vector<Command> commands = commands_of(folder / (GetParam() + ".md"));
   ASSERT_FALSE(commands.empty());
-  const fs::path here = fs::temp_directory_path() / ("kurbel_task_" + GetParam() + "_" + std::to_string(getpid()));
-  fs::create_directories(here);
+  const test::ScratchFolder here;
   for (const auto& entry : fs::directory_iterator(folder))
     if (const auto kind = entry.path().extension(); kind == ".toml" || kind == ".csv")
-      fs::copy(entry.path(), here, fs::copy_options::overwrite_existing);
+      fs::copy(entry.path(), here.path, fs::copy_options::overwrite_existing);
   std::set<std::string> seen;
   for (const Command& command : commands) {
     if (!seen.insert(but_for_values(command.line)).second && !test::thorough()) continue;
@@ -80,7 +79,6 @@ TEST_P(Task, EveryCommandSaysWhatThePageSays) {
           << "kurbel " << command.line << "\ndoes not say: " << line << "\nbut:\n"
           << text;
   }
-  fs::remove_all(here);
 }
 
 INSTANTIATE_TEST_SUITE_P(Worked, Task,

@@ -9,6 +9,7 @@
 
 #include "engine/reading/tolerances.h"
 #include "engine/scene/messages.h"
+#include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::test::tables_of_files_test {
@@ -19,10 +20,6 @@ constexpr double rpm = std::numbers::pi / 30;
 
 class TablesOfFiles : public testing::Test {
  protected:
-  TablesOfFiles() : folder_(fs::temp_directory_path() / fmt::format("kurbel_tables_{}", getpid())) {
-    fs::create_directories(folder_);
-  }
-  ~TablesOfFiles() override { fs::remove_all(folder_); }
   // A motor by that table, against 10 s of a flywheel.
   std::string scene(const std::string& table) const {
     return fmt::format(R"(line = ["motor", "wheel"]
@@ -48,7 +45,7 @@ run = {{ until = "10 s" }}
     }
     return "";
   }
-  fs::path folder_;
+  const test::ScratchFolder folder_;
 };
 
 TEST_F(TablesOfFiles, UnitsOfTheHeadingAreUsed) {

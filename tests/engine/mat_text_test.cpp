@@ -1,7 +1,6 @@
 // mat_text_test.cpp — MAT files as tables: those of libmatio, plain and compressed; those of the program; damaged ones.
 #include "engine/tables/mat_text.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -24,9 +23,6 @@ using test::of_matio;
 
 class MatText : public testing::Test {
  protected:
-  MatText() : path_((fs::temp_directory_path() / fmt::format("kurbel_mat_{}.mat", getpid())).string()) {}
-  ~MatText() override { fs::remove(path_); }
-
   // By libmatio: 1 × 4 doubles t, 4 × 1 floats n, 4 × 2 bytes m, two single values, a text; `complex` one more, complex.
   void write(mat_ft version, matio_compression packed, bool complex = false) const {
     fs::remove(path_);
@@ -62,7 +58,8 @@ class MatText : public testing::Test {
     }
     return "";
   }
-  std::string path_;
+  const test::ScratchFolder folder_;
+  const std::string path_ = folder_ / "values.mat";
 };
 
 TEST_F(MatText, VectorsAndColumnsOfMatricesAreColumns) {

@@ -11,6 +11,7 @@
 #include <map>
 
 #include "engine/tables/table_file.h"
+#include "tests/support/files.h"
 
 namespace kurbel::spreadsheet_test {
 namespace {
@@ -20,9 +21,6 @@ namespace fs = std::filesystem;
 class Spreadsheet : public testing::Test {
  protected:
   using Parts = std::map<std::string, std::string>;
-  Spreadsheet() : path_((fs::temp_directory_path() / fmt::format("kurbel_sheet_{}.xlsx", getpid())).string()) {}
-  ~Spreadsheet() override { fs::remove(path_); }
-
   void write(const Parts& parts) const {
     fs::remove(path_);
     zip_t* archive = zip_open(path_.c_str(), ZIP_CREATE, nullptr);
@@ -58,7 +56,8 @@ class Spreadsheet : public testing::Test {
     }
     return "";
   }
-  std::string path_;
+  const test::ScratchFolder folder_;
+  const std::string path_ = folder_ / "book.xlsx";
 };
 
 constexpr const char* rows =

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "engine/tables/heading.h"
+#include "tests/support/files.h"
 
 namespace kurbel::table_file_test {
 namespace {
@@ -25,8 +26,8 @@ struct Read {
 };
 
 Read read(const std::string& text, std::vector<int> columns = {1, 2}, const TableForm& form = {}) {
-  const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-  const auto path = std::filesystem::temp_directory_path() / fmt::format("kurbel_table_{}_{}", name, getpid());
+  const test::ScratchFolder folder;
+  const auto path = folder / "table";
   std::ofstream(path, std::ios::binary) << text;
   Read result;
   const auto report = [&](const std::vector<Message>& all) {
@@ -47,7 +48,6 @@ Read read(const std::string& text, std::vector<int> columns = {1, 2}, const Tabl
   } catch (const SceneError& error) {
     report(error.messages);
   }
-  std::filesystem::remove(path);
   return result;
 }
 

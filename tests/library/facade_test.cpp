@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/files.h"
 #include "tests/support/program.h"
 #include "tests/support/sanitized.h"
 
@@ -213,8 +214,7 @@ TEST(Facade, MessagesNameOptionsAsCallersDo) {
 }
 
 TEST(Facade, AMachineIsExportedForOtherTools) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "kurbel_facade_export";
-  std::filesystem::remove_all(folder);
+  const test::ScratchFolder folder;
   const Study exported = study("export", Machine::from_text(two_masses, "two.toml"),
                                {{"fmi", "3"}, {"kind", "both"}, {"input", "fan.torque"}, {"output", "speed.fan"}});
   EXPECT_NE(exported.text().find("1 inputs"), std::string::npos) << exported.text();
@@ -227,7 +227,6 @@ TEST(Facade, AMachineIsExportedForOtherTools) {
               study("export", Machine::from_text(two_masses), {{"fmi", "4"}});
             }).find("fmi"),
             std::string::npos);
-  std::filesystem::remove_all(folder);
 }
 
 // 100 runs before, so that pools and tables are filled.

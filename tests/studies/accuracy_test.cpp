@@ -10,6 +10,7 @@
 
 #include "studies/accuracy/known_accuracy.h"
 #include "studies/report/render.h"
+#include "tests/support/files.h"
 #include "tests/support/scenes.h"
 #include "tests/support/thorough.h"
 
@@ -144,8 +145,7 @@ TEST(KnownAccuracy, PicksTheCheapestSettingThatIsExactEnough) {
   Scene scene = test::scene_file("scenes/six_inertia_chain.toml");
   const AccuracyStudy study = measure_accuracy(scene, coarse());
   ASSERT_TRUE(study.complete) << study.diagnosis;
-  const auto folder = std::filesystem::temp_directory_path() / "kurbel_known_accuracy";
-  std::filesystem::create_directories(folder);
+  const test::ScratchFolder folder;
   const auto summary = folder / "summary.json";
   std::ofstream(summary) << output_of(study).json();
   double last = 0;
@@ -193,7 +193,6 @@ TEST(KnownAccuracy, PicksTheCheapestSettingThatIsExactEnough) {
   refused(folder / "edited.json", 1e-3, "did you mean \"dop853\"");
   scene.text += "\n# changed";
   refused(summary, 1e-3, "was measured of another scene");
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Accuracy, WhatDoesNotApplyIsNamedWithItsReason) {

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,7 @@
 #include <random>
 
 #include "engine/scene/messages.h"
+#include "tests/support/files.h"
 
 namespace kurbel::fit_test {
 namespace {
@@ -23,16 +23,12 @@ constexpr double pi = std::numbers::pi;
 
 class Fit : public testing::Test {
  protected:
-  Fit() : folder_(fs::temp_directory_path() / ("kurbel_fit_" + std::to_string(getpid()))) {
-    fs::create_directories(folder_);
-  }
-  ~Fit() override { fs::remove_all(folder_); }
   std::string file(const std::string& name, const std::string& text) const {
     const std::string path = (folder_ / name).string();
     std::ofstream(path) << text;
     return path;
   }
-  fs::path folder_;
+  const test::ScratchFolder folder_;
 };
 
 // A rotor that drag slows down: ω = ω₀ e^{−bt/J}, ω₀ = 100 rad/s, J = 0.5 kg·m², b = 0.2 N·m·s/rad.

@@ -17,6 +17,7 @@
 #include "studies/run/simulate.h"
 #include "studies/steady/steady.h"
 #include "studies/tables/trajectory_rows.h"
+#include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::test::measured_test {
@@ -26,17 +27,12 @@ namespace fs = std::filesystem;
 
 class Measured : public testing::Test {
  protected:
-  Measured() {
-    folder_ = fs::temp_directory_path() / ("kurbel_measured_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  ~Measured() override { fs::remove_all(folder_); }
   std::string file(const std::string& text) const {
     const std::string path = (folder_ / "test.csv").string();
     std::ofstream(path) << text;
     return path;
   }
-  fs::path folder_;
+  const ScratchFolder folder_;
 };
 
 // Two masses under a step of torque M: M (1 − cos Ω t) J₂/(J₁ + J₂) in the shaft, with some damping.

@@ -1,6 +1,5 @@
 // new_scene_test.cpp — scenes to start from run and balance; what helps to write them is complete.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -27,9 +26,7 @@ class NewScene : public testing::Test {
   Said kurbel(const std::string& arguments) const {
     return shell(std::string("'") + KURBEL_EXECUTABLE + "' " + arguments);
   }
-  Said shell(const std::string& command) const {
-    return test::said_by("cd '" + folder_.path.string() + "' && " + command);
-  }
+  Said shell(const std::string& command) const { return test::said_by("cd '" + folder_.string() + "' && " + command); }
 
   const test::ScratchFolder folder_;
 };

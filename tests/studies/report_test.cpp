@@ -18,6 +18,7 @@
 #include "studies/run/compare.h"
 #include "studies/run/run_findings.h"
 #include "studies/scenes/kinds.h"
+#include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::report_test {
@@ -241,8 +242,8 @@ TEST(Report, MillionSamplesStayBelowTenMegabytes) {
 }
 
 TEST(Report, WritesGnuplotFiles) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "kurbel report's plots";
-  std::filesystem::remove_all(folder);
+  const test::ScratchFolder scratch;
+  const std::filesystem::path folder = scratch / "a report's plots";
   Report report{.title = "Gnuplot"};
   report.add("").cards.push_back(
       Plot{.title = "Torque, it's",
@@ -255,7 +256,6 @@ TEST(Report, WritesGnuplotFiles) {
   if (drawn > 0) {
     EXPECT_GT(std::filesystem::file_size(folder / "torque_it_s.svg"), 1000u);
   }
-  std::filesystem::remove_all(folder);
 }
 
 // Grey and thick behind whatever else there is, in the page and in gnuplot's figures, however the study lists its models;

@@ -11,7 +11,6 @@
 #include <atomic>
 #include <fstream>
 #include <set>
-#include <sstream>
 #include <thread>
 
 #include "studies/files/clear_away.h"
@@ -36,14 +35,6 @@ std::set<std::string> names_in(const fs::path& folder) {
 
 class ResultSetTest : public testing::TestWithParam<bool> {
  protected:
-  ResultSetTest() {
-    std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::replace(name.begin(), name.end(), '/', '_');
-    folder_ = fs::temp_directory_path() / ("kurbel_set_" + name + "_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  ~ResultSetTest() override { fs::remove_all(folder_); }
-
   // Two files of one run.
   void put(const std::string& run, const std::string& out = "out") {
     ResultSet set(folder_ / out);
@@ -60,7 +51,7 @@ class ResultSetTest : public testing::TestWithParam<bool> {
     EXPECT_NE(manifest.find(sha256(run) + "  plots/b.txt\n"), std::string::npos) << manifest;
   }
 
-  fs::path folder_;
+  const test::ScratchFolder folder_;
 };
 INSTANTIATE_TEST_SUITE_P(Exchange, ResultSetTest, testing::Bool());
 using ResultSetOnce = ResultSetTest;
@@ -224,7 +215,7 @@ TEST_P(ResultSetOnce, KilledJustAfterTheExchangeLosesNoFileThatIsNotKurbels) {
 TEST_P(ResultSetOnce, KilledBetweenTwoMovesLosesNothing) {
   put("first");
   fs::rename(folder_ / "out", folder_ / ".out.kurbel-old-0123456789ab");
-  const Descriptor folder = open_folder(AT_FDCWD, folder_);
+  const Descriptor folder = open_folder(AT_FDCWD, folder_.string());
   clear_abandoned(folder.get());
   expect_run("first");
   EXPECT_EQ(names_in(folder_), std::set<std::string>{"out"});

@@ -22,6 +22,7 @@
 #include "studies/sweep/sweep_findings.h"
 #include "studies/uncertainty/uncertainty.h"
 #include "tests/support/conclusions.h"
+#include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::summary_schema_test {
@@ -181,12 +182,10 @@ TEST(SummarySchema, HoldsForSweepsAndTolerances) {
                     .parameters = {1.0 + 0.05 * static_cast<double>(i)},
                     .figures = {{{3.0 * static_cast<double>(i)}, 0}}});
   rows[3].state = RowState::failed, rows[3].diagnosis = "it stops";
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("kurbel_schema_" + std::to_string(getpid()) + ".db");
-  std::filesystem::remove(file);
+  const test::ScratchFolder folder;
+  const std::filesystem::path file = folder / "sweep.db";
   SweepStore(file, identity).write(rows);
   const SweepStudyResult sweep = study_of(SweepStore(file), {"peak_torque.c <= 30 N*m"});
-  std::filesystem::remove(file);
   EXPECT_EQ(misfit(schema().at("$defs").at("sweep"), Json::parse(json_text(summary_of(findings_of(sweep)))), "sweep"),
             "");
 

@@ -9,6 +9,7 @@
 #include "studies/sweep/influence.h"
 #include "studies/sweep/sweep_findings.h"
 #include "studies/sweep/sweep_plots.h"
+#include "tests/support/files.h"
 
 namespace kurbel::sweep_report_test {
 namespace {
@@ -25,12 +26,10 @@ SweepStudyResult study_of_a_cube(const std::vector<std::string>& limits) {
     const auto a = static_cast<double>(i / 4), b = static_cast<double>(i / 2 % 2), c = static_cast<double>(i % 2);
     rows.push_back({.row = i, .parameters = {a, b, c}, .figures = {{{10 * a + 4 * b + c, 2.0}, 0}}});
   }
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("kurbel_cube_" + std::to_string(getpid()) + ".db");
-  std::filesystem::remove(file);
+  const test::ScratchFolder folder;
+  const std::filesystem::path file = folder / "sweep.db";
   SweepStore(file, identity).write(rows);
   const SweepStudyResult study = study_of(SweepStore(file), limits);
-  std::filesystem::remove(file);
   return study;
 }
 

@@ -2,7 +2,6 @@
 #include "studies/scenes/train_sheet.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <zip.h>
 
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include <map>
 #include <sstream>
 
+#include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::train_sheet_test {
@@ -19,9 +19,6 @@ namespace fs = std::filesystem;
 
 class TrainSheet : public testing::Test {
  protected:
-  TrainSheet() : file_(fs::temp_directory_path() / ("kurbel_sheet_" + std::to_string(getpid()) + ".csv")) {}
-  ~TrainSheet() override { fs::remove(file_); }
-
   std::string scene(const std::string& sheet) const {
     std::ofstream(file_) << sheet;
     return scene_of_sheet(file_.string());
@@ -42,7 +39,8 @@ class TrainSheet : public testing::Test {
     EXPECT_NE(said.find(words), std::string::npos) << said;
   }
 
-  fs::path file_;
+  const test::ScratchFolder folder_;
+  const fs::path file_ = folder_ / "sheet.csv";
 };
 
 TEST_F(TrainSheet, KeepsItsDigitsAndUnits) {

@@ -26,6 +26,7 @@ struct ScratchFolder {
   ScratchFolder& operator=(const ScratchFolder&) = delete;
   ~ScratchFolder() { std::filesystem::remove_all(path); }
   operator const std::filesystem::path&() const { return path; }
+  std::string string() const { return path.string(); }
   std::filesystem::path operator/(const std::filesystem::path& name) const { return path / name; }
 
  private:
