@@ -3,24 +3,20 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "drivetrain/friction/belt.h"
 #include "studies/answers/link_recorder.h"
 #include "studies/answers/run_claims.h"
+#include "tests/support/conclusions.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::claims_by_hand_test {
 namespace {
 
-const Claim* find(const Claims& claims, Predicate what, const std::string& of = {}) {
-  const auto found = std::find_if(claims.begin(), claims.end(),
-                                  [&](const Claim& c) { return c.predicate == what && (of.empty() || c.of == of); });
-  return found == claims.end() ? nullptr : &*found;
-}
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+using test::find;
+using test::has;
 
 // The motor's 50 N·m are 150 on the crank, which a brake of 200 stops within its first cycle.
 TEST(MotorBehindAGear, DrivesTheLinkByItsTorqueTimesTheRatio) {

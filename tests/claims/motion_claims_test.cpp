@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -12,6 +11,7 @@
 #include "studies/run/run_findings.h"
 #include "studies/steady/steady_words.h"
 #include "studies/trials/trials_findings.h"
+#include "tests/support/conclusions.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::motion_claims_test {
@@ -19,13 +19,9 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-const Claim* find(const Claims& claims, Predicate what, const std::string& of = {}) {
-  const auto found = std::find_if(claims.begin(), claims.end(),
-                                  [&](const Claim& c) { return c.predicate == what && (of.empty() || c.of == of); });
-  return found == claims.end() ? nullptr : &*found;
-}
-std::string said(const Result& r) { return findings_of(r).conclusion(); }
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+using test::find;
+using test::has;
+using test::said;
 
 // 40 N·m lift a weight of 20 N·m on 2 kg·m² for 1 s: 10 rad/s then, and −10 rad/s² from there on.
 std::string hoist(const std::string& more) {

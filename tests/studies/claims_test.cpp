@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -20,6 +19,7 @@
 #include "studies/steady/steady.h"
 #include "studies/steady/steady_words.h"
 #include "studies/trials/trials_findings.h"
+#include "tests/support/conclusions.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::claims_test {
@@ -27,18 +27,9 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-const Claim* find(const Claims& claims, Predicate what, const std::string& of = {}) {
-  const auto found = std::find_if(claims.begin(), claims.end(),
-                                  [&](const Claim& c) { return c.predicate == what && (of.empty() || c.of == of); });
-  return found == claims.end() ? nullptr : &*found;
-}
-
-// All that a run says, in one text.
-std::string said(const Result& r) {
-  const Findings f = findings_of(r);
-  return f.conclusion();
-}
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+using test::find;
+using test::has;
+using test::said;
 
 // --- claims are made by one function ---
 

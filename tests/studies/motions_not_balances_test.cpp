@@ -14,6 +14,7 @@
 #include "studies/run/run_findings.h"
 #include "studies/size/size.h"
 #include "studies/steady/steady.h"
+#include "tests/support/conclusions.h"
 #include "tests/support/scenes.h"
 #include "tests/support/waiting.h"
 
@@ -45,7 +46,6 @@ std::string refused(const std::function<void()>& ask) {
   }
   return "";
 }
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 double uniform(std::mt19937& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);

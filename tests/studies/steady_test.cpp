@@ -10,6 +10,7 @@
 
 #include "studies/question/option.h"
 #include "tests/published/published.h"
+#include "tests/support/conclusions.h"
 
 namespace kurbel::test::steady_test {
 namespace {
@@ -29,7 +30,6 @@ double value_of(const SteadyCycle& cycle, const std::string& name) {
   EXPECT_NE(f, nullptr) << name;
   return f ? f->value : std::nan("");
 }
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 const std::string crank =
     "crank = { kind = \"slider-crank\", radius = \"100 mm\", rod = \"350 mm\", crank_inertia = \"0.55 kg*m2\", "

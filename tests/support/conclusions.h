@@ -1,4 +1,4 @@
-// conclusions.h — requirements on every conclusion: one text in all renderings, and no superfluous digits.
+// conclusions.h — what a conclusion says, and requirements on every one: one text in all renderings, and no superfluous digits.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,6 +12,21 @@
 #include "studies/findings/output.h"
 
 namespace kurbel::test {
+
+inline bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// Null: there is no such claim.
+inline const Claim* find(const Claims& claims, Predicate what, const std::string& of = {}) {
+  const auto found = std::find_if(claims.begin(), claims.end(),
+                                  [&](const Claim& c) { return c.predicate == what && (of.empty() || c.of == of); });
+  return found == claims.end() ? nullptr : &*found;
+}
+
+// All that a run says, in one text.
+template <class R>
+std::string said(const R& result) {
+  return findings_of(result).conclusion();
+}
 
 // Numbers in a text outside of quotes and names, parsed independently of the program.
 inline std::vector<std::string> numbers_in(const std::string& text) {
