@@ -41,17 +41,21 @@ inline std::shared_ptr<const Model> model_of(const std::string& scene) {
 }
 
 // A bare run: no audit, nobody watching.
+inline RunOutcome bare_run(Equations& equations, double tolerance, const std::string& method = "auto",
+                           std::shared_ptr<WorkTables> tables = nullptr) {
+  const RunOptions options{.tolerance = tolerance,
+                           .method = method,
+                           .until = equations.model().scene.run.until,
+                           .budget = 600,
+                           .interrupted = nullptr,
+                           .progress = {},
+                           .work_tables = std::move(tables)};
+  return integrate(equations, options, {});
+}
 inline RunOutcome bare_run(const std::shared_ptr<const Model>& model, double tolerance,
                            const std::string& method = "auto", std::shared_ptr<WorkTables> tables = nullptr) {
   Equations equations(model, false);
-  RunOptions options{.tolerance = tolerance,
-                     .method = method,
-                     .until = model->scene.run.until,
-                     .budget = 600,
-                     .interrupted = nullptr,
-                     .progress = {},
-                     .work_tables = std::move(tables)};
-  return integrate(equations, options, {});
+  return bare_run(equations, tolerance, method, std::move(tables));
 }
 
 struct TimedRun {
@@ -72,13 +76,7 @@ inline TimedRun timed(int repetitions, const std::function<RunOutcome()>& run) {
 
 inline double final_angle(const std::shared_ptr<const Model>& model, double tolerance, const std::string& method) {
   Equations equations(model, false);
-  RunOptions options{.tolerance = tolerance,
-                     .method = method,
-                     .until = model->scene.run.until,
-                     .budget = 600,
-                     .interrupted = nullptr,
-                     .progress = {}};
-  const RunOutcome out = integrate(equations, options, {});
+  const RunOutcome out = bare_run(equations, tolerance, method);
   return equations.angle_with_turns(static_cast<std::size_t>(model->reduction_angle), out.state);
 }
 
