@@ -17,8 +17,6 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double pi = std::numbers::pi;
 
-std::shared_ptr<const Model> model_of(const Scene& scene) { return compile(scene, scene.effects); }
-
 struct Cycle {
   std::shared_ptr<ReturnMap> map;
   SteadyPoint point;

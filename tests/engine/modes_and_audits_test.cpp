@@ -18,14 +18,11 @@
 namespace kurbel::modes_and_audits_test {
 namespace {
 
+using test::model_of;
 using test::run;
 using test::scene_from;
 using test::series;
 
-std::shared_ptr<const Model> model_of(const std::string& text) {
-  const Scene scene = scene_from(text);
-  return compile(scene, scene.effects);
-}
 std::string body(const std::string& name, double inertia) {
   return fmt::format("{} = {{ kind = \"inertia\", inertia = \"{} kg*m2\" }}\n", name, inertia);
 }

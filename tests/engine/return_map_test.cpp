@@ -15,10 +15,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-std::shared_ptr<const Model> model_of(const std::string& text) {
-  const Scene scene = scene_from(text);
-  return compile(scene, scene.effects);
-}
 std::shared_ptr<const Model> model_of_scene(const std::string& file, bool elastic) {
   const Scene scene = scene_file("scenes/" + file + ".toml");
   return compile(scene, elastic ? scene.effects : Effects{});

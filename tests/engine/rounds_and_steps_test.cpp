@@ -20,14 +20,11 @@ namespace {
 
 using std::numbers::pi;
 using test::figure;
+using test::model_of;
 using test::run;
 using test::scene_from;
 using test::series;
 
-std::shared_ptr<const Model> model_of(const std::string& text) {
-  const Scene scene = scene_from(text);
-  return compile(scene, scene.effects);
-}
 const std::string gear_2_5 = "gear = { kind = \"gearbox\", stages = [{ teeth = [20, 50] }] }\n";
 std::string crank(const std::string& more = "") {
   return "crank = { kind = \"slider-crank\", radius = \"100 mm\", rod = \"350 mm\", crank_inertia = \"0.2 kg*m2\", "

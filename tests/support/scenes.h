@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 
+#include "engine/model/model.h"
 #include "engine/scene/scene.h"
 #include "studies/run/simulate.h"
 #include "studies/scenes/kinds.h"
@@ -15,6 +17,10 @@ inline std::string source_path(const std::string& relative) { return KURBEL_SOUR
 
 inline Scene scene_from(const std::string& text) { return parse_scene(text, "test.toml", all_kinds()); }
 inline Scene scene_file(const std::string& relative) { return read_scene(source_path(relative), all_kinds()); }
+
+// Compiled with the scene's own effects.
+inline std::shared_ptr<const Model> model_of(const Scene& scene) { return compile(scene, scene.effects); }
+inline std::shared_ptr<const Model> model_of(const std::string& text) { return model_of(scene_from(text)); }
 
 // Runs with the scene's own effects; errors are measured unless switched off.
 inline Result run(const Scene& scene, bool measure_error = true) {
