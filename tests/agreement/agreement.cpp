@@ -28,11 +28,7 @@ constexpr double most_whole_periods = 100;  // of the run within a study's cycle
 
 // --- which figure of `steady` stands for which of the run: the only place that knows their names ---
 
-const Figure* figure_of(const SteadyCycle& cycle, const Name& name) {
-  const auto found =
-      std::find_if(cycle.figures.begin(), cycle.figures.end(), [&](const Figure& f) { return f.name == name.text; });
-  return found == cycle.figures.end() ? nullptr : &*found;
-}
+const Figure* figure_of(const SteadyCycle& cycle, const Name& name) { return find(cycle.figures, name.text); }
 
 struct Reported {
   double value = 0, error = 0;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/base/find_by.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "studies/modes/modes.h"
@@ -40,11 +41,10 @@ std::vector<ReportedMode> reported_modes(const ModesStudy& study) {
   for (const DampedMode& damped : study.damped) {
     if (damped.lambda.imag() <= 0) continue;
     ReportedMode reported{damped.lambda.imag(), -damped.lambda.real(), damped.error};
-    const auto mode =
-        std::find_if(study.modes.begin(), study.modes.end(), [&](const Mode& m) { return m.lambda == damped.lambda; });
-    if (mode != study.modes.end() && mode->only_of_mean) continue;
+    const auto* const mode = find_by(study.modes, &Mode::lambda, damped.lambda);
+    if (mode && mode->only_of_mean) continue;
     // Where coefficients change with the angle, exponents are what is told of the swing; the mean's is beside them.
-    if (mode != study.modes.end() && !mode->periodic.empty()) {
+    if (mode && !mode->periodic.empty()) {
       for (const PeriodicMode& s : mode->periodic) {
         reported = {s.exponent.imag(), -s.exponent.real(), s.error};
         if (mode->fades_within_cycle)
@@ -53,7 +53,7 @@ std::vector<ReportedMode> reported_modes(const ModesStudy& study) {
       }
       continue;
     }
-    if (mode != study.modes.end() && mode->omega > 0 && mode->greatest > 0)
+    if (mode && mode->omega > 0 && mode->greatest > 0)
       reported.least = std::min(1.0, mode->least / mode->omega),
       reported.greatest = std::max(1.0, mode->greatest / mode->omega);
     list.push_back(reported);

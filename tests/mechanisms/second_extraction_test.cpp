@@ -134,8 +134,8 @@ run = {{ start = {{ speed = "30 rad/s", angle = "40 deg" }}, until = "1 s", outp
 }
 
 double figure(const Result& r, const std::string& name) {
-  const auto found = std::find_if(r.figures.begin(), r.figures.end(), [&](const Figure& f) { return f.name == name; });
-  return found == r.figures.end() ? NAN : found->value;
+  const Figure* found = r.find(name);
+  return found ? found->value : NAN;
 }
 
 // √(I(φ)/I(φ₀))/ω₀ integrated by Gauss–Legendre, halved where it bends: the time of a free crank's way.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "engine/base/find_by.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::slider_loads_test {
@@ -81,9 +82,8 @@ TEST(SliderLoads, FourStrokeCycleIsTwoTurns) {
 // The load edge lies where the slider is 20 mm before its end, to round-off: φ from the closed form.
 TEST(SliderLoads, PressEdgeIsLocatedOnItsTravel) {
   const Result r = turning("{ kind = \"press\", nominal_force = \"8 kN\", nominal_travel = \"20 mm\" }");
-  const auto edge =
-      std::find_if(r.events.begin(), r.events.end(), [](const Event& e) { return e.what == "load edge"; });
-  ASSERT_NE(edge, r.events.end());
+  const auto* const edge = find_by(r.events, &Event::what, "load edge");
+  ASSERT_NE(edge, nullptr);
   const double phi = 10 * edge->t;
   EXPECT_NEAR(0.05 * std::cos(phi) + std::sqrt(0.04 - std::pow(0.05 * std::sin(phi), 2)), 0.25 - 0.02, 1e-12);
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/base/find_by.h"
 #include "studies/forces/forces.h"
 #include "tests/published/published.h"
 #include "tests/support/files.h"
@@ -220,9 +221,8 @@ TEST(SwitchedLoads, ForcesOfARepeatedSequenceHaveTheLoadsAsTheyCome) {
   ASSERT_TRUE(f.simulated) << f.diagnosis;
   EXPECT_NEAR(f.simulated->cycle, 6 * pi, 1e-9);
   const double stroke = 1500 * (0.060 - 0.5 * 0.005);
-  const auto load = std::find_if(f.simulated->work.begin(), f.simulated->work.end(),
-                                 [](const CycleWork& w) { return w.name == "crank.load"; });
-  ASSERT_NE(load, f.simulated->work.end());
+  const auto* const load = find_by(f.simulated->work, &CycleWork::name, "crank.load");
+  ASSERT_NE(load, nullptr);
   EXPECT_NEAR(load->work.value, -stroke, 1e-6 * stroke);
   EXPECT_LT(*f.simulated->machine_residual, 1e-7);
   EXPECT_NE(f.notes.front().find("within its repetition"), std::string::npos) << f.notes.front();

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
+#include "engine/base/find_by.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::test::difference_test {
@@ -65,8 +65,8 @@ MachineQuestion question(std::string torque, std::string inertia) {
 }
 
 const FigureDifference& figure(const MachineDifference& d, const std::string& name) {
-  const auto found = std::find_if(d.figures.begin(), d.figures.end(), [&](const auto& f) { return f.name == name; });
-  EXPECT_NE(found, d.figures.end()) << name;
+  const auto* const found = find_by(d.figures, &FigureDifference::name, name);
+  EXPECT_NE(found, nullptr) << name;
   return *found;
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "engine/base/find_by.h"
 #include "studies/duty/work_periods.h"
 #include "studies/findings/trace.h"
 #include "studies/limits/ratings.h"
@@ -126,9 +127,8 @@ TEST(MotorFigures, ThermalUseIsThatOfTheHeaviestCycleThatRepeats) {
     const Result r = test::run(scene);
     EXPECT_NEAR(figure(r, "thermal_use.motor"), *motor.thermal(), 0.01 * *motor.thermal()) << "it swings on a little";
     const std::vector<Verdict> verdicts = judge_ratings(r);
-    const auto judged =
-        std::find_if(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.component == "motor"; });
-    ASSERT_NE(judged, verdicts.end());
+    const auto* const judged = find_by(verdicts, &Verdict::component, "motor");
+    ASSERT_NE(judged, nullptr);
     if (r.find(quantities::run_up_time, "")) {
       EXPECT_NE(judged->requirement.find("heaviest cycle"), std::string::npos);
       EXPECT_NEAR(judged->value, figure(r, "thermal_use.motor") * *motor.rated, 1e-9 * judged->value);
@@ -162,17 +162,15 @@ TEST(SteadyRatings, OfACouplingAreThoseOfModes) {
   std::size_t same = 0;
   for (const Verdict& by_modes : find_modes(scene, scene.effects, {}).verdicts) {
     if (by_modes.requirement == requirement::maximum) continue;
-    const auto found = std::find_if(verdicts.begin(), verdicts.end(),
-                                    [&](const Verdict& v) { return v.requirement == by_modes.requirement; });
-    ASSERT_NE(found, verdicts.end()) << by_modes.requirement;
+    const auto* const found = find_by(verdicts, &Verdict::requirement, by_modes.requirement);
+    ASSERT_NE(found, nullptr) << by_modes.requirement;
     EXPECT_NEAR(found->value, by_modes.value, found->known_error() + by_modes.known_error()) << by_modes.requirement;
     EXPECT_LT(found->known_error(), 1e-4 * found->value);
     ++same;
   }
   EXPECT_EQ(same, 3U) << "T_KN, T_KW, P_KW";
-  const auto most = std::find_if(verdicts.begin(), verdicts.end(),
-                                 [](const Verdict& v) { return v.requirement == requirement::maximum; });
-  ASSERT_NE(most, verdicts.end());
+  const auto* const most = find_by(verdicts, &Verdict::requirement, requirement::maximum);
+  ASSERT_NE(most, nullptr);
   EXPECT_NE(most->note.find("kurbel modes judges the start"), std::string::npos) << most->note;
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "engine/base/find_by.h"
 #include "engine/events/equations.h"
 #include "engine/run/run.h"
 #include "studies/advise/advise.h"
@@ -110,9 +111,8 @@ TEST(Effects, EachIsRankedByWhatItChanges) {
   EXPECT_EQ(study.omitted[0].saved.states, 2);  // a twist and a speed
   EXPECT_GT(study.omitted[0].saved.nonzeros, 0);
   // By their own size the RMS and the peak are missed alike; both come before all else.
-  const auto peak = std::find_if(study.omitted[0].changes.begin(), study.omitted[0].changes.end(),
-                                 [](const auto& change) { return change.figure == "peak_torque.pump_shaft"; });
-  ASSERT_NE(peak, study.omitted[0].changes.end());
+  const auto* const peak = find_by(study.omitted[0].changes, &FigureChange::figure, "peak_torque.pump_shaft");
+  ASSERT_NE(peak, nullptr);
   EXPECT_GT(peak->relative, 0.9);
   EXPECT_NE(study.omitted[0].changes.front().figure.find("torque.pump_shaft"), std::string::npos);
   // Rigid, the shaft carries M + J α; at resonance 1/(2 ζ) times as much: most of it is missed.

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "engine/base/find_by.h"
 #include "studies/limits/limits_findings.h"
 #include "studies/limits/ratings.h"
 #include "studies/modes/drive_limits.h"
@@ -394,9 +395,8 @@ TEST(LimitsFromRest, AMachineThatTurnsAtTheStartHasNoStartFromRest) {
   EXPECT_EQ(by_run[0].state(), Compliance::holds);
   EXPECT_EQ(by_run[1].load_case, load_case::start);
   EXPECT_EQ(by_run[1].state(), Compliance::not_assessed);
-  const auto start =
-      std::find_if(by_modes.begin(), by_modes.end(), [](const Verdict& v) { return v.load_case == load_case::start; });
-  ASSERT_NE(start, by_modes.end());
+  const auto* const start = find_by(by_modes, &Verdict::load_case, load_case::start);
+  ASSERT_NE(start, nullptr);
   EXPECT_GT(start->value, 1.5 * by_run[0].value);
 }
 

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <random>
 
+#include "engine/base/find_by.h"
 #include "studies/modes/modes_plots.h"
 #include "studies/report/render.h"
 #include "studies/steady/steady.h"
@@ -309,8 +310,8 @@ TEST(ForcedResponse, OfThePressIsNearItsSimulatedSteadyCycle) {
     const SteadyStudy cycle = steady(scene, {scene.effects}, {.start_search = false});
     const auto figure = [&](const char* name) {
       const std::vector<Figure>& all = cycle.cycles.front().figures;
-      const auto found = std::find_if(all.begin(), all.end(), [&](const Figure& f) { return f.name == name; });
-      return found == all.end() ? std::nan("") : found->value;
+      const Figure* found = find(all, name);
+      return found ? found->value : std::nan("");
     };
     const double greatest = figure("cycle_peak_torque.main_coupling"),
                  effective = figure("cycle_rms_torque.main_coupling");
@@ -390,9 +391,8 @@ TEST(ParametricZone, VariationIsTheHarmonicOfTheInertiaInTheMode) {
   const ModesStudy m = find_modes(test::scene_from(crank_on_a_shaft), Effects{.all_elastic = true, .elastic = {}},
                                   {.slowest = 10, .fastest = 500});
   const double v = m.modes[0].shape[1], expected = v * v * 0.5 * 2 * 0.01;
-  const auto zone =
-      std::find_if(m.zones.begin(), m.zones.end(), [](const ParametricZone& z) { return z.harmonic == 2; });
-  ASSERT_NE(zone, m.zones.end());
+  const auto* const zone = find_by(m.zones, &ParametricZone::harmonic, 2U);
+  ASSERT_NE(zone, nullptr);
   EXPECT_NEAR(zone->variation, expected, 1e-3 * expected);
   EXPECT_NEAR(zone->centre, m.modes[0].omega, 1e-9 * zone->centre);  // 2 ω/2
 }

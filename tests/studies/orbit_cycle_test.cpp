@@ -299,8 +299,8 @@ TEST(OrbitCycle, OfAnEngineWithoutAMechanismIsThatOfTheRun) {
   ASSERT_TRUE(r.complete && !study.cycles.empty() && study.cycles.front().found);
   const auto& found = study.cycles.front().figures;
   for (const std::string name : {"mean_speed.damper", "delta.damper"}) {
-    const auto figure = std::find_if(found.begin(), found.end(), [&](const Figure& f) { return f.name == name; });
-    ASSERT_NE(figure, found.end()) << name;
+    const Figure* const figure = find(found, name);
+    ASSERT_NE(figure, nullptr) << name;
     ASSERT_NE(r.find(name), nullptr) << name;
     EXPECT_NEAR(r.find(name)->value, figure->value, *r.find(name)->error + *figure->error + 1e-7 * figure->value)
         << name;

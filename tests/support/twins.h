@@ -331,8 +331,7 @@ inline void expect_same_figures(const std::vector<Figure>& first, const std::vec
       else if (name.compare(begin, 9, "min_speed") == 0)
         name.replace(begin, 3, "max");
     }
-    const auto found = std::find_if(second.begin(), second.end(), [&](const Figure& f) { return f.name == name; });
-    return found == second.end() ? nullptr : &*found;
+    return find(second, name);
   };
   for (const Figure& f : first) {
     if (of_a_gear(f.name) || of_a_commanded_motor(f.name)) continue;
