@@ -9,11 +9,12 @@
 
 #include "engine/equations/jam.h"
 #include "engine/numerics/dual.h"
+#include "mechanisms/friction/friction_loads.h"
 
 namespace kurbel {
 namespace {
 
-constexpr std::size_t most_loads = JointFriction::most_loads, most_reactions = 2 * JointFriction::most_joints;
+constexpr std::size_t most_loads = JointFriction::most_loads;
 constexpr double quadratic = 1e-8;  // after such a small step of Newton's method the error is its square
 
 int sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
@@ -37,10 +38,10 @@ T strength(const RubbingJoint& j, bool slides, const T& sliding, bool at_rest) {
 
 // u = L N − 2 M and w = L N + 2 M about the guide's middle; without length N, and nothing.
 struct Edges {
-  Edges(const RubbingJoint& j, double normal, double moment) {
-    const double about_middle = moment - j.middle * normal;
-    if (j.length > 0) {
-      u = j.length * normal - 2 * about_middle, w = j.length * normal + 2 * about_middle;
+  Edges(double length, double middle, double normal, double moment) {
+    const double about_middle = moment - middle * normal;
+    if (length > 0) {
+      u = length * normal - 2 * about_middle, w = length * normal + 2 * about_middle;
     } else {
       u = normal;
     }
@@ -49,74 +50,6 @@ struct Edges {
 };
 
 }  // namespace
-
-// One state: the laws' coefficients, (1) of the header, its solution.
-struct JointFriction::Work {
-  std::size_t n = 0, reactions = 0;
-  double phi = 0;
-  bool given = false;                                   // the acceleration is given
-  double strength[most_joints], edge[2 * most_joints];  // −sgn(v) times ρ or f + k_r/r_r; shares of u and w in Σ|N|
-  double base[most_reactions], influence[most_reactions][most_loads];  // R₀, U + m b vᵀ
-  double q[most_loads], r[most_reactions], wanted[most_loads];
-  double by[most_loads][2];           // ∂law/∂ the two reactions of its joint
-  std::size_t of[most_loads];         // the first of these
-  double lu[most_loads][most_loads];  // of 1 − s ∂law/∂R (U + m b vᵀ)
-  double inverse[most_loads];         // of its pivots
-  std::size_t row[most_loads];
-  double determinant = 1;
-  double answer[most_reactions];  // b
-
-  // N: the number of loads if known at compile time; else 0.
-  template <std::size_t N>
-  void react() {
-    const std::size_t n = N > 0 ? N : this->n;
-    for (std::size_t i = 0; i < reactions; ++i) {
-      double sum = base[i];
-      for (std::size_t k = 0; k < n; ++k) sum += influence[i][k] * q[k];
-      r[i] = sum;
-    }
-  }
-  template <std::size_t N>
-  void factorise(double share) {
-    const std::size_t n = N > 0 ? N : this->n;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double *first = influence[of[i]], *second = influence[of[i] + 1];
-      const double a = share * by[i][0], b = share * by[i][1];
-      for (std::size_t k = 0; k < n; ++k) lu[i][k] = -a * first[k] - b * second[k];
-      lu[i][i] += 1;
-    }
-    determinant = 1;
-    for (std::size_t k = 0; k < n; ++k) {
-      std::size_t pivot = k;
-      for (std::size_t i = k + 1; i < n; ++i)
-        if (std::abs(lu[i][k]) > std::abs(lu[pivot][k])) pivot = i;
-      row[k] = pivot;
-      if (pivot != k) {
-        std::swap_ranges(lu[k], lu[k] + n, lu[pivot]);
-        determinant = -determinant;
-      }
-      determinant *= lu[k][k];
-      if (lu[k][k] == 0) continue;
-      inverse[k] = 1 / lu[k][k];
-      for (std::size_t i = k + 1; i < n; ++i) {
-        const double factor = lu[i][k] *= inverse[k];
-        if (factor != 0)
-          for (std::size_t j = k + 1; j < n; ++j) lu[i][j] -= factor * lu[k][j];
-      }
-    }
-  }
-  template <std::size_t N>
-  void solve(double* x) const {
-    const std::size_t n = N > 0 ? N : this->n;
-    for (std::size_t k = 0; k < n; ++k) std::swap(x[k], x[row[k]]);
-    for (std::size_t k = 0; k < n; ++k)
-      for (std::size_t i = k + 1; i < n; ++i) x[i] -= lu[i][k] * x[k];
-    for (std::size_t k = n; k-- > 0;) {
-      for (std::size_t j = k + 1; j < n; ++j) x[k] -= lu[k][j] * x[j];
-      x[k] *= inverse[k];
-    }
-  }
-};
 
 JointFriction::JointFriction(std::vector<Joint> joints, std::vector<Turning> turnings,
                              std::shared_ptr<const ReactionTable> table, std::vector<std::string> applied)
@@ -127,6 +60,7 @@ JointFriction::JointFriction(std::vector<Joint> joints, std::vector<Turning> tur
       applied_(std::move(applied)) {
   for (Joint& j : joints_) {
     validate(j.data);
+    laws_.push_back({j.slides, j.data.length, j.data.middle, j.couple});
     if (!j.slides) continue;
     j.first_side = static_cast<std::size_t>(sides_);
     sides_ += j.data.length > 0 ? 2 : 1;
@@ -139,25 +73,33 @@ ReactionTable::One JointFriction::turning(int which, double phi) const {
   return {value / t.scale, slope / t.scale};
 }
 
-// ω² a + ε b + w + F c + Σ F_i c_i, of one reaction's row.
-double JointFriction::without_friction(const State& s, const double* row) const {
-  double sum = s.omega * s.omega * row[0] + s.alpha * row[1] + (s.weightless ? 0 : 1) * row[2] + s.load * row[3];
-  for (std::size_t i = 0; s.applied && i < places_.applied; ++i) sum += s.applied[i] * row[ReactionPlaces::cases + i];
-  return sum;
+// ω² a + ε b + w + F c + Σ F_i c_i of all reactions.
+void JointFriction::without_friction(const State& s, const double* values, double* sums) const {
+  const auto column = [&](std::size_t number) { return values + places_.column(number); };
+  const std::size_t reactions = places_.reactions();
+  const double square = s.omega * s.omega, weight = s.weightless ? 0 : 1;
+  const double *speed = column(ReactionPlaces::speed_case), *acceleration = column(ReactionPlaces::acceleration_case),
+               *weights = column(ReactionPlaces::weight_case), *load = column(ReactionPlaces::load_case);
+  for (std::size_t i = 0; i < reactions; ++i)
+    sums[i] = square * speed[i] + s.alpha * acceleration[i] + weight * weights[i] + s.load * load[i];
+  for (std::size_t k = 0; s.applied && k < places_.applied; ++k)
+    for (std::size_t i = 0; i < reactions; ++i) sums[i] += s.applied[k] * column(ReactionPlaces::cases + k)[i];
 }
 
 // fold: couples of slides are included in the influence of the other loads, as they are proportional to N.
 void JointFriction::prepare(const State& s, double response, const double* values, bool fold, Work& w) const {
-  const std::size_t n = places_.loads, stride = places_.stride();
-  w.n = fold ? places_.joints : n, w.reactions = places_.reactions(), w.phi = s.phi;
+  const std::size_t n = places_.loads, reactions = places_.reactions();
+  w.n = fold ? places_.joints : n, w.joints = places_.joints, w.phi = s.phi;
   const double* ratio = values + places_.ratio(0);
   const int direction = s.direction != 0 ? s.direction : sign_of(s.omega);
-  for (std::size_t i = 0; i < w.reactions; ++i) {
-    const double* c = values + i * stride;
-    w.base[i] = without_friction(s, c);
-    w.answer[i] = c[1];
-    const double answer = response * c[1];
-    for (std::size_t k = 0; k < n; ++k) w.influence[i][k] = c[places_.friction(k)] + answer * ratio[k];
+  without_friction(s, values, w.base);
+  std::copy_n(values + places_.column(ReactionPlaces::acceleration_case), reactions, w.answer);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double* unit = values + places_.column(places_.friction(k));
+    if (response == 0)
+      std::copy_n(unit, reactions, w.influence[k]);
+    else
+      for (std::size_t i = 0; i < reactions; ++i) w.influence[k][i] = unit[i] + response * w.answer[i] * ratio[k];
   }
   const auto held = [&](int place) {
     const int mode = s.modes ? s.modes[place] : 0;
@@ -170,52 +112,54 @@ void JointFriction::prepare(const State& s, double response, const double* value
     sign = direction * (sign != 0 ? joint.sense * sign : sign_of(v));
     const double sliding = sign * v * s.omega * (joint.slides ? 1 : joint.data.radius);
     w.strength[j] = -sign * strength(joint.data, joint.slides, sliding, s.at_rest);
-    w.of[joint.load] = 2 * j;
+    w.of[joint.load] = j;
     if (!joint.slides) continue;
-    for (const int k : {0, 1}) w.edge[2 * j + static_cast<std::size_t>(k)] = 0;
-    for (int k = 0; k < (joint.data.length > 0 ? 2 : 1); ++k)
-      w.edge[2 * j + static_cast<std::size_t>(k)] = held(sign_count() + static_cast<int>(joint.first_side) + k);
+    for (const int k : {0, 1})
+      w.edge[k][j] = k == 0 || joint.data.length > 0 ? held(sign_count() + static_cast<int>(joint.first_side) + k) : 0;
     if (!joint.couple) continue;
     const double lever = 0.5 * joint.between * joint.data.width * w.strength[j];
-    const std::size_t couple = *joint.couple, normal = 2 * j;
-    w.of[couple] = normal, w.by[couple][0] = lever, w.by[couple][1] = 0;
+    const std::size_t couple = *joint.couple, normal = j;
+    w.of[couple] = j, w.by[0][couple] = lever, w.by[1][couple] = 0;
     if (!fold) continue;
     // A slide keeps its bodies from turning: its couple changes the moment in it, and no other reaction.
-    const std::size_t moment = normal + 1;
-    const double part = lever * w.influence[moment][couple];
+    const std::size_t moment = w.joints + j;
+    const double part = lever * w.influence[couple][moment];
     w.base[moment] += part * w.base[normal], w.answer[moment] += part * w.answer[normal];
-    for (std::size_t k = 0; k < n; ++k) w.influence[moment][k] += part * w.influence[normal][k];
+    for (std::size_t k = 0; k < n; ++k) w.influence[k][moment] += part * w.influence[k][normal];
   }
 }
 
-// q by the laws at the present q, and its slopes; returns the maximum.
+// q by the laws at the present q, and its slopes.
 template <std::size_t N>
-double JointFriction::apply_laws(Work& w) const {
+void JointFriction::apply_laws(Work& w) const {
   w.react<N>();
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const Joint& joint = joints_[j];
-    const double strength = w.strength[j], *r = w.r + 2 * j;
-    double* by = w.by[joint.load];
-    if (!joint.slides) {
-      const double size = std::sqrt(r[0] * r[0] + r[1] * r[1]), unit = size > 0 ? strength / size : 0;
-      by[0] = unit * r[0], by[1] = unit * r[1];
-      w.wanted[joint.load] = strength * size;
-      continue;
+  const std::size_t joints = N > 0 ? N : w.joints;
+  w.largest = std::numeric_limits<double>::min(), w.least = HUGE_VAL;
+  for (std::size_t j = 0; j < joints; ++j) {  // the n-th joint has the n-th load
+    const Law& law = laws_[j];
+    const double strength = w.strength[j], first = w.r[j], second = w.r[joints + j];
+    if (!law.slides) {
+      const double size = std::sqrt(first * first + second * second), unit = size > 0 ? strength / size : 0;
+      w.by[0][j] = unit * first, w.by[1][j] = unit * second;
+      w.wanted[j] = strength * size;
+      if (strength != 0) w.least = std::min(w.least, std::abs(w.wanted[j]));
+    } else {
+      const Edges edges(law.length, law.middle, first, second);
+      const double u = w.edge[0][j] != 0 ? w.edge[0][j] : sign_of(edges.u);
+      double by = strength * u, by_moment = 0;
+      if (law.length > 0) {
+        const double v = w.edge[1][j] != 0 ? w.edge[1][j] : sign_of(edges.w), part = strength / (2 * law.length);
+        by = part * ((u + v) * law.length + 2 * (u - v) * law.middle), by_moment = 2 * part * (v - u);
+      }
+      w.by[0][j] = by, w.by[1][j] = by_moment;
+      w.wanted[j] = by * first + by_moment * second;
+      if (N == 0 && law.couple && *law.couple < w.n) {
+        w.wanted[*law.couple] = w.by[0][*law.couple] * first;
+        w.largest = std::max(w.largest, std::abs(w.wanted[*law.couple]));
+      }
     }
-    const RubbingJoint& d = joint.data;
-    const Edges edges(d, r[0], r[1]);
-    const double u = w.edge[2 * j] != 0 ? w.edge[2 * j] : sign_of(edges.u);
-    by[0] = strength * u, by[1] = 0;
-    if (d.length > 0) {
-      const double v = w.edge[2 * j + 1] != 0 ? w.edge[2 * j + 1] : sign_of(edges.w), part = strength / (2 * d.length);
-      by[0] = part * ((u + v) * d.length + 2 * (u - v) * d.middle), by[1] = 2 * part * (v - u);
-    }
-    w.wanted[joint.load] = by[0] * r[0] + by[1] * r[1];
-    if (joint.couple && *joint.couple < w.n) w.wanted[*joint.couple] = w.by[*joint.couple][0] * r[0];
+    w.largest = std::max(w.largest, std::abs(w.wanted[j]));
   }
-  double largest = std::numeric_limits<double>::min();
-  for (std::size_t k = 0; k < w.n; ++k) largest = std::max(largest, std::abs(w.wanted[k]));
-  return largest;
 }
 
 // Newton's method at one share of the coefficients from q; false if it does not converge on the right branch.
@@ -224,7 +168,8 @@ bool JointFriction::settle(double share, Work& w) const {
   const std::size_t n = N > 0 ? N : w.n;
   double last = HUGE_VAL;
   for (int i = 0; i < 40; ++i) {
-    const double largest = apply_laws<N>(w);
+    apply_laws<N>(w);
+    const double largest = w.largest;
     if (!std::isfinite(largest)) return false;
     w.factorise<N>(share);
     if (w.determinant == 0 || !std::isfinite(w.determinant)) return false;
@@ -233,9 +178,7 @@ bool JointFriction::settle(double share, Work& w) const {
     w.solve<N>(step);
     for (std::size_t k = 0; k < n; ++k) w.q[k] += step[k], size = std::max(size, std::abs(step[k]));
     // By the square of the step; for a pin with a nearly zero reaction, where its law has a kink, by rounding.
-    double least = largest;
-    for (std::size_t j = 0; j < joints_.size(); ++j)
-      if (!joints_[j].slides && w.strength[j] != 0) least = std::min(least, std::abs(w.wanted[joints_[j].load]));
+    const double least = std::min(largest, w.least);
     if (size <= quadratic * least || size <= 4e-16 * largest || (size <= 1e-13 * largest && size >= last))
       return w.determinant > 0;
     last = size;
@@ -244,22 +187,7 @@ bool JointFriction::settle(double share, Work& w) const {
 }
 
 bool JointFriction::settle_any(double share, Work& w) const {
-  switch (w.n) {
-    case 1:
-      return settle<1>(share, w);
-    case 2:
-      return settle<2>(share, w);
-    case 3:
-      return settle<3>(share, w);
-    case 4:
-      return settle<4>(share, w);
-    case 5:
-      return settle<5>(share, w);
-    case 7:
-      return settle<7>(share, w);
-    default:
-      return settle<0>(share, w);
-  }
+  return w.sized([&](auto n) { return settle<n>(share, w); });
 }
 
 // From the frictionless solution; if Newton's method does not converge directly, by continuation with growing shares.
@@ -296,8 +224,17 @@ JointFriction::Torque JointFriction::torque(const State& state, double response)
   return torque(state, response, place);
 }
 
+void JointFriction::read(double phi, Place& place) const {
+  if (place.phi == phi) return;
+  if (std::isnan(place.phi))
+    table_->read(phi, place.values);
+  else
+    table_->move(phi, place.values);
+  place.phi = phi;
+}
+
 JointFriction::Torque JointFriction::torque(const State& s, double response, Place& place) const {
-  if (place.phi != s.phi) table_->read(s.phi, place.values), place.phi = s.phi;
+  read(s.phi, place);
   Work w;
   prepare(s, response, place.values, true, w);
   place.found = false;
@@ -308,9 +245,9 @@ JointFriction::Torque JointFriction::torque(const State& s, double response, Pla
   double by_alpha[most_loads];
   for (std::size_t k = 0; k < w.n; ++k) {
     out.torque += ratio[k] * w.q[k];
-    by_alpha[k] = w.by[k][0] * w.answer[2 * k] + w.by[k][1] * w.answer[2 * k + 1];
+    by_alpha[k] = w.by[0][k] * w.answer[k] + w.by[1][k] * w.answer[w.joints + k];
   }
-  w.solve<0>(by_alpha);
+  w.sized([&](auto n) { w.solve<n>(by_alpha); });
   double slope = 0;
   for (std::size_t k = 0; k < w.n; ++k) slope += ratio[k] * by_alpha[k];
   out.slope = response != 0 ? slope / (1 + response * slope) : slope;
@@ -325,21 +262,23 @@ JointFriction::Slopes JointFriction::slopes(const State& s) const {
   Work w;
   prepare(s, 0, values, false, w);
   find(s, w);
-  const std::size_t stride = places_.stride();
+  double along_without[2 * most_joints];
+  without_friction(s, along, along_without);
   const double *ratio = values + places_.ratio(0), *ratio_along = along + places_.ratio(0);
   double by_angle[most_loads], by_speed[most_loads], by_load[most_loads], by_applied[most_applied][most_loads];
   for (std::size_t k = 0; k < w.n; ++k) {
     double angle = 0, speed = 0, load = 0;
     for (std::size_t i = 0; i < 2; ++i) {
-      const double *c = values + (w.of[k] + i) * stride, *d = along + (w.of[k] + i) * stride;
-      double moved = without_friction(s, d);
-      for (std::size_t m = 0; m < w.n; ++m) moved += d[places_.friction(m)] * w.q[m];
-      angle += w.by[k][i] * moved, speed += w.by[k][i] * 2 * s.omega * c[0], load += w.by[k][i] * c[3];
+      const std::size_t reaction = places_.reaction(w.of[k], i);
+      double moved = along_without[reaction];
+      for (std::size_t m = 0; m < w.n; ++m) moved += along[places_.column(places_.friction(m)) + reaction] * w.q[m];
+      angle += w.by[i][k] * moved, speed += w.by[i][k] * 2 * s.omega * values[reaction];
+      load += w.by[i][k] * values[places_.column(ReactionPlaces::load_case) + reaction];
     }
     by_angle[k] = angle, by_speed[k] = speed, by_load[k] = load;
     for (std::size_t a = 0; a < places_.applied; ++a) {
-      const double* c = values + w.of[k] * stride + ReactionPlaces::cases + a;
-      by_applied[a][k] = w.by[k][0] * c[0] + w.by[k][1] * c[stride];
+      const double* c = values + places_.column(ReactionPlaces::cases + a) + w.of[k];
+      by_applied[a][k] = w.by[0][k] * c[0] + w.by[1][k] * c[w.joints];
     }
   }
   // The coefficients change with the sliding speed.
@@ -375,7 +314,7 @@ JointFriction::Slopes JointFriction::slopes(const State& s) const {
 // Each relative to its terms, so that sides that vanish together are of order one elsewhere.
 void JointFriction::sides(const State& s, double* side, Place& place) const {
   const bool known = place.found && place.phi == s.phi;
-  if (!known) table_->read(s.phi, place.values), place.phi = s.phi;
+  read(s.phi, place);
   const double* const values = place.values;
   Work w;
   prepare(s, 0, values, true, w);
@@ -386,24 +325,24 @@ void JointFriction::sides(const State& s, double* side, Place& place) const {
   w.react<0>();
   const double weight = s.weightless ? 0 : 1;
   const auto terms = [&](std::size_t i) {
-    const double* c = values + i * places_.stride();
-    double sum = std::abs(s.omega * s.omega * c[0]) + std::abs(s.alpha * c[1]) + std::abs(weight * c[2]) +
-                 std::abs(s.load * c[3]);
+    const auto c = [&](std::size_t column) { return values[places_.column(column) + i]; };
+    double sum = std::abs(s.omega * s.omega * c(0)) + std::abs(s.alpha * c(1)) + std::abs(weight * c(2)) +
+                 std::abs(s.load * c(3));
     for (std::size_t a = 0; s.applied && a < places_.applied; ++a)
-      sum += std::abs(s.applied[a] * c[ReactionPlaces::cases + a]);
-    for (std::size_t k = 0; k < w.n; ++k) sum += std::abs(w.influence[i][k] * w.q[k]);
+      sum += std::abs(s.applied[a] * c(ReactionPlaces::cases + a));
+    for (std::size_t k = 0; k < w.n; ++k) sum += std::abs(w.influence[k][i] * w.q[k]);
     return sum;
   };
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     if (!joints_[j].slides) continue;
     const RubbingJoint& d = joints_[j].data;
-    const Edges edges(d, w.r[2 * j], w.r[2 * j + 1]);
+    const Edges edges(d.length, d.middle, w.r[j], w.r[w.joints + j]);
     const double least = std::numeric_limits<double>::min();
     if (d.length > 0) {
-      const double scale = (d.length + 2 * std::abs(d.middle)) * terms(2 * j) + 2 * terms(2 * j + 1) + least;
+      const double scale = (d.length + 2 * std::abs(d.middle)) * terms(j) + 2 * terms(w.joints + j) + least;
       *side++ = edges.u / scale, *side++ = edges.w / scale;
     } else {
-      *side++ = edges.u / (terms(2 * j) + least);
+      *side++ = edges.u / (terms(j) + least);
     }
   }
 }
@@ -415,9 +354,12 @@ JointFriction::Solved JointFriction::solve(const State& s) const {
   w.given = true;
   prepare(s, 0, values, false, w);
   find(s, w);
-  const double largest = apply_laws<0>(w);
-  Solved out{{w.r, w.r + w.reactions}, {w.q, w.q + w.n}, 0, 0};
-  for (std::size_t k = 0; k < w.n; ++k) out.residual = std::max(out.residual, std::abs(w.wanted[k] - w.q[k]) / largest);
+  apply_laws<0>(w);
+  Solved out{{}, {w.q, w.q + w.n}, 0, 0};
+  for (std::size_t j = 0; j < w.joints; ++j)
+    for (const std::size_t part : {0, 1}) out.reactions.push_back(w.r[places_.reaction(j, part)]);
+  for (std::size_t k = 0; k < w.n; ++k)
+    out.residual = std::max(out.residual, std::abs(w.wanted[k] - w.q[k]) / w.largest);
   for (std::size_t k = 0; k < w.n; ++k) out.torque += values[places_.ratio(k)] * w.q[k];
   return out;
 }

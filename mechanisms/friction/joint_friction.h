@@ -49,23 +49,27 @@ struct RubbingJoint {
 // Throws std::invalid_argument naming the first value outside its domain.
 void validate(const RubbingJoint& joint);
 
-// Coefficients of the reactions over φ. One row for each reaction, two reactions for each joint with friction:
-//     a, b, w, c, then c_i for each force within, U for each friction load; after all rows v for each friction load.
+// Coefficients of the reactions over φ, one column for each of a, b, w, c, then c_i of each force within, then U of each
+// friction load; after all columns v of each friction load. In a column stands R_x or N of each joint with friction, then
+// R_y or M of each.
 struct ReactionPlaces {
   std::size_t joints = 0, loads = 0, applied = 0;
   enum Case : std::size_t { speed_case, acceleration_case, weight_case, load_case, cases };
-  std::size_t friction(std::size_t load) const { return cases + applied + load; }  // column in a row
-  std::size_t stride() const { return friction(loads); }
   std::size_t reactions() const { return 2 * joints; }
-  std::size_t ratio(std::size_t load) const { return reactions() * stride() + load; }
-  std::size_t size() const { return reactions() * stride() + loads; }
+  std::size_t reaction(std::size_t joint, std::size_t part) const { return part * joints + joint; }
+  std::size_t friction(std::size_t load) const { return cases + applied + load; }  // number of its column
+  std::size_t columns() const { return friction(loads); }
+  std::size_t column(std::size_t number) const { return number * reactions(); }
+  std::size_t ratio(std::size_t load) const { return column(columns()) + load; }
+  std::size_t size() const { return ratio(loads); }
 };
 class ReactionTable {
  public:
   virtual ~ReactionTable() = default;
   virtual const ReactionPlaces& places() const = 0;
   virtual void read(double phi, double* values) const = 0;
-  virtual void read(double phi, double* values, double* slopes) const = 0;  // and their derivatives by φ
+  virtual void read(double phi, double* values, double* slopes) const = 0;    // and their derivatives by φ
+  virtual void move(double phi, double* values) const { read(phi, values); }  // read at another angle before
   struct One {
     double value, slope;
   };
@@ -153,16 +157,24 @@ class JointFriction {
 
  private:
   struct Work;
+  // What the laws need of a joint.
+  struct Law {
+    bool slides = false;
+    double length = 0, middle = 0;
+    std::optional<std::size_t> couple;
+  };
   void prepare(const State& state, double response, const double* values, bool fold, Work& work) const;
   void find(const State& state, Work& work) const;
-  double without_friction(const State& state, const double* row) const;
+  void read(double phi, Place& place) const;
+  void without_friction(const State& state, const double* values, double* sums) const;
   template <std::size_t N>
-  double apply_laws(Work& work) const;
+  void apply_laws(Work& work) const;
   template <std::size_t N>
   bool settle(double share, Work& work) const;
   bool settle_any(double share, Work& work) const;
 
   std::vector<Joint> joints_;
+  std::vector<Law> laws_;
   std::vector<Turning> turnings_;
   std::shared_ptr<const ReactionTable> table_;
   ReactionPlaces places_;

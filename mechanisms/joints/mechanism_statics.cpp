@@ -76,9 +76,11 @@ void MechanismStatics::add_friction(const PlanarLinkage& l, LinkageForces& f) co
   for (std::size_t j = 0; j < sampler_->joints.size(); ++j) {
     const JointForces& joint = f.joints[sampler_->joint_of(j)];
     for (std::size_t i = 0; i < 2; ++i) {
-      double* const row = values.data() + (2 * j + i) * places.stride();
-      std::fill_n(row, static_cast<std::size_t>(ReactionPlaces::cases), 0.0);
-      row[ReactionPlaces::weight_case] =
+      const auto place = [&](std::size_t column) -> double& {
+        return values[places.column(column) + places.reaction(j, i)];
+      };
+      for (std::size_t column = 0; column < ReactionPlaces::cases; ++column) place(column) = 0;
+      place(ReactionPlaces::weight_case) =
           joint.slides ? (i == 0 ? joint.normal : joint.moment) : (i == 0 ? joint.force.x : joint.force.y);
     }
   }

@@ -77,7 +77,7 @@ ReactionSampler::UnitReactions ReactionSampler::put(double phi, const PlanarLink
   for (std::size_t j = 0; j < joints.size(); ++j)
     for (std::size_t i = 0; i < 2; ++i)
       for (std::size_t c = 0; c < unit.size(); ++c)
-        values[(2 * j + i) * places_.stride() + c] = static_cast<double>(unit[c][2 * joint_[j] + i]);
+        values[places_.column(c) + places_.reaction(j, i)] = static_cast<double>(unit[c][2 * joint_[j] + i]);
   for (std::size_t k = 0; k < loads_.size(); ++k) values[places_.ratio(k)] = 0;
   for (std::size_t j = 0; j < joints.size(); ++j) values[places_.ratio(joints[j].load)] = rate(j, l);
   return unit;

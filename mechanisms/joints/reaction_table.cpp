@@ -44,6 +44,9 @@ class TabulatedReactions final : public ReactionTable {
   const ReactionPlaces& places() const override { return places_; }
   void read(double phi, double* values) const override {
     std::copy(constant_.begin(), constant_.end(), values);
+    move(phi, values);
+  }
+  void move(double phi, double* values) const override {
     if (place_.empty()) return;
     const PeriodicTable::Cursor at = table_.locate(cycle_.part_of(phi));
     for (std::size_t k = 0; k < place_.size(); ++k) values[place_[k]] = PeriodicTable::value(at, k);
@@ -77,7 +80,7 @@ class TabulatedReactions final : public ReactionTable {
   // Which places vary; their scales are those of their case, of forces and moments by themselves.
   std::vector<ChannelSpec> sort_out(const Sampler& sampler) {
     constexpr int samples = 48;
-    const std::size_t size = places_.size(), stride = places_.stride();
+    const std::size_t size = places_.size();
     std::vector<double> least(size, HUGE_VAL), most(size, -HUGE_VAL), here(size);
     const bool rocks = cycle_.arc().has_value();
     Sampler::Greatest widest;
@@ -90,8 +93,8 @@ class TabulatedReactions final : public ReactionTable {
     }
     const auto greatest = [&](std::size_t k) { return std::max(std::abs(least[k]), std::abs(most[k])); };
     const auto is_moment = [&](std::size_t k) {
-      const std::size_t row = k / stride;
-      return sampler.joints[row / 2].slides && row % 2 == 1;
+      const std::size_t reaction = k % places_.reactions();
+      return reaction >= places_.joints && sampler.joints[reaction - places_.joints].slides;
     };
     const auto pin_ratio = [&](std::size_t k) {
       return std::any_of(sampler.joints.begin(), sampler.joints.end(),
@@ -99,7 +102,7 @@ class TabulatedReactions final : public ReactionTable {
     };
     const auto group = [&](std::size_t k) {  // the largest of its case
       if (k >= places_.ratio(0)) return pin_ratio(k) ? 1.0 : greatest(k);
-      return (is_moment(k) ? widest.moment : widest.force)[k % stride];
+      return (is_moment(k) ? widest.moment : widest.force)[k / places_.reactions()];
     };
     std::vector<ChannelSpec> channels;
     for (std::size_t k = 0; k < size; ++k) {
