@@ -24,21 +24,30 @@ constexpr std::ptrdiff_t ends_shown = 7;
 constexpr double shown_twist = 1.1;  // of the largest one after enlargement [rad]
 constexpr double shown_bend = 0.12;  // of the rod's length
 
-// Straight between the points; x ascends.
-double value_at(const Trace& trace, double x) {
-  const auto upper = std::upper_bound(trace.x.begin(), trace.x.end(), x);
-  if (upper == trace.x.begin()) return trace.y.front();
-  if (upper == trace.x.end()) return trace.y.back();
-  const auto i = static_cast<std::size_t>(upper - trace.x.begin());
-  const double share = (x - trace.x[i - 1]) / (trace.x[i] - trace.x[i - 1]);
-  return trace.y[i - 1] + share * (trace.y[i] - trace.y[i - 1]);
+// Straight between the points; x ascends. `upper` is the first point beyond x.
+double value_before(const Trace& trace, std::size_t upper, double x) {
+  if (upper == 0) return trace.y.front();
+  if (upper == trace.x.size()) return trace.y.back();
+  const double share = (x - trace.x[upper - 1]) / (trace.x[upper] - trace.x[upper - 1]);
+  return trace.y[upper - 1] + share * (trace.y[upper] - trace.y[upper - 1]);
 }
 
+double value_at(const Trace& trace, double x) {
+  const auto upper = std::upper_bound(trace.x.begin(), trace.x.end(), x);
+  return value_before(trace, static_cast<std::size_t>(upper - trace.x.begin()), x);
+}
+
+// At times that ascend: the next point beyond is searched from the last one on.
 std::vector<double> sampled(const Trace* trace, const std::vector<double>& time) {
   std::vector<double> values;
   if (!trace || trace->x.empty()) return values;
   values.reserve(time.size());
-  for (const double t : time) values.push_back(value_at(*trace, t));
+  std::size_t upper = 0;
+  for (const double t : time) {
+    while (upper < trace->x.size() && trace->x[upper] <= t) ++upper;
+    const bool passed = upper > 0 && trace->x[upper - 1] > t;
+    values.push_back(passed ? value_at(*trace, t) : value_before(*trace, upper, t));
+  }
   return values;
 }
 

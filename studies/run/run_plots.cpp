@@ -163,11 +163,16 @@ std::optional<Plot> tachogram(const Results& results, const std::string& channel
 // A trace interpolated at the abscissae of another one.
 std::vector<double> at_places(const Trace& trace, const std::vector<double>& angles) {
   std::vector<double> values;
+  values.reserve(angles.size());
+  const std::vector<double>& x = trace.x;
+  const bool ascends = std::is_sorted(x.begin(), x.end());
+  std::size_t i = 0;  // the first one that is not before the place: mostly the next one
   for (const double angle : angles) {
-    const auto after = std::lower_bound(trace.x.begin(), trace.x.end(), angle);
-    const auto i = static_cast<std::size_t>(after - trace.x.begin());
-    const bool inside = i > 0 && i < trace.x.size() && trace.x[i] > trace.x[i - 1];
-    const double part = inside ? (angle - trace.x[i - 1]) / (trace.x[i] - trace.x[i - 1]) : 0;
+    while (ascends && i < x.size() && x[i] < angle) ++i;
+    if (!ascends || (i > 0 && !(x[i - 1] < angle)))
+      i = static_cast<std::size_t>(std::lower_bound(x.begin(), x.end(), angle) - x.begin());
+    const bool inside = i > 0 && i < x.size() && x[i] > x[i - 1];
+    const double part = inside ? (angle - x[i - 1]) / (x[i] - x[i - 1]) : 0;
     values.push_back(inside ? trace.y[i - 1] + part * (trace.y[i] - trace.y[i - 1])
                             : trace.y[std::min(i, trace.y.size() - 1)]);
   }
