@@ -4,7 +4,11 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <array>
+#include <bit>
 #include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <iterator>
 
 #include "studies/data/number_text.h"
@@ -23,19 +27,39 @@ void put_number(std::string& text, double value, const NumberFormat& format) {
   }
 }
 
+// The numbers of a table as text. The same one often comes twice, as the torque of a joint and of its neighbour: the text
+// of each is kept until another one takes its place.
+class NumbersAsText {
+ public:
+  explicit NumbersAsText(std::string& text) : text_(text) {}
+  void put(double value, const NumberFormat& format) {
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    Known& known = known_[bits * 0x9E3779B97F4A7C15 >> 54];
+    if (known.count > 0 && known.bits == bits && known.digits == format.digits &&
+        known.after_point == format.after_point)
+      return void(text_.append(text_, known.begin, known.count));
+    known = {bits, text_.size(), 0, format.digits, format.after_point};
+    put_number(text_, value, format);
+    known.count = text_.size() - known.begin;
+  }
+
+ private:
+  struct Known {
+    std::uint64_t bits = 0;
+    std::size_t begin = 0, count = 0;  // its place in the text
+    int digits = 0;
+    bool after_point = false;
+  };
+  std::string& text_;
+  std::array<Known, 1024> known_ = {};
+};
+
 // Text with a comma, a quotation mark or a line end is quoted, inner quotation marks are doubled (RFC 4180).
 void put_words(std::string& text, const std::string& words) {
   if (words.find_first_of(",\"\n") == std::string::npos) return void(text += words);
   text += '"';
   for (const char c : words) text += c == '"' ? std::string("\"\"") : std::string(1, c);
   text += '"';
-}
-
-void put_cell(std::string& text, const DataCell& cell, const NumberFormat& format) {
-  if (const std::string* words = std::get_if<std::string>(&cell))
-    put_words(text, *words);
-  else if (const double number = std::get<double>(cell); !std::isnan(number))
-    put_number(text, number, format);
 }
 
 }  // namespace
@@ -57,9 +81,13 @@ std::string csv_text(const DataTable& table) {
   for (std::size_t k = 0; k < table.columns.size(); ++k)
     text += (k == 0 ? "" : ",") + heading_of(table.columns[k].name, table.columns[k].unit);
   text += '\n';
+  NumbersAsText numbers(text);
   table.each_row([&](DataRow row) {
     for (std::size_t k = 0; k < row.size(); ++k) {
-      put_cell(text, row[k], table.columns[k].format);
+      if (const std::string* words = std::get_if<std::string>(&row[k]))
+        put_words(text, *words);
+      else if (const double number = std::get<double>(row[k]); !std::isnan(number))
+        numbers.put(number, table.columns[k].format);
       text += k + 1 < row.size() ? ',' : '\n';
     }
   });

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstring>
 #include <iterator>
 
 #include "engine/scene/printable.h"
@@ -47,24 +48,63 @@ class JsonWriter {
     append_digits(text, v.number + 0.0, v.digits);
   }
   void put(const RoundedList& v) {
-    items(v.numbers, "[]", [&](double number) { put(Rounded{number, v.digits}); });
+    if (form_ == JsonForm::indented)
+      items(v.numbers, "[]", [&](double number) { put(Rounded{number, v.digits}); });
+    else
+      put_on_one_line(v);
+  }
+  // A report has a hundred thousand of these numbers: in blocks.
+  void put_on_one_line(const RoundedList& v) {
+    constexpr std::size_t size = 4096, longest = 72;
+    char block[size];
+    char* end = block;
+    *end++ = '[';
+    for (const double number : v.numbers) {
+      if (end > block + size - longest) text.append(block, end), end = block;
+      if (std::isfinite(number))
+        end = put_digits(end, number + 0.0, v.digits);
+      else
+        std::memcpy(end, "null", 4), end += 4;
+      *end++ = ',';
+    }
+    if (!v.numbers.empty()) --end;
+    *end++ = ']';
+    text.append(block, end);
   }
   void put(const Estimate& v) { put(estimate_record(v)); }
   void put(const List& list) {
     items(list, "[]", [&](const Value& item) { put(item); });
   }
   void put(const std::string& words) {
-    std::string escaped;
-    for (const char c : words)
-      if (c == '<' && form_ == JsonForm::in_page)
-        escaped += "\\u003c";
-      else if (c == '\n' || c == '\t')
-        escaped += c == '\n' ? "\\n" : "\\t";
-      else if (c == '"' || c == '\\')
-        escaped += {'\\', c};
-      else
-        escaped += c;
-    text += '"' + printable_json(escaped) + '"';
+    text += '"';
+    const char *from = words.data(), *const end = from + words.size();
+    while (from != end) {
+      const char* to = from;
+      while (to != end && is_kept(*to)) ++to;
+      text.append(from, to);
+      from = to;
+      while (to != end && !is_ascii(*to)) ++to;
+      if (to != from)
+        text += printable_json({from, to});
+      else if (to != end)
+        put_escaped(*to++);
+      from = to;
+    }
+    text += '"';
+  }
+  static bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
+  bool is_kept(char c) const {
+    return c >= 0x20 && c < 0x7F && c != '"' && c != '\\' && (c != '<' || form_ != JsonForm::in_page);
+  }
+  void put_escaped(char c) {
+    if (c == '<')
+      text += "\\u003c";
+    else if (c == '\n' || c == '\t')
+      text += c == '\n' ? "\\n" : "\\t";
+    else if (c == '"' || c == '\\')
+      text += {'\\', c};
+    else
+      text += printable_json({&c, 1});
   }
   void put(const std::string& key, const Value& value) {
     put(key);

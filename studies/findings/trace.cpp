@@ -11,7 +11,7 @@ namespace kurbel {
 namespace {
 
 constexpr int samples_per_step = 6;
-constexpr std::size_t full = 16000, thinned = 8000;
+constexpr std::size_t full = 16000, thinned = 8000, rows_of_block = 128;
 
 void push(Trace& trace, double x, double y) {
   trace.x.push_back(x);
@@ -19,14 +19,39 @@ void push(Trace& trace, double x, double y) {
   if (trace.x.size() >= full) thin_by_extremes(trace.x, trace.y, thinned);
 }
 
+void append(Trace& trace, const std::vector<double>& x, const double* y) {
+  if (trace.x.size() + x.size() >= full) {
+    for (std::size_t i = 0; i < x.size(); ++i) push(trace, x[i], y[i]);
+  } else {
+    trace.x.insert(trace.x.end(), x.begin(), x.end());
+    trace.y.insert(trace.y.end(), y, y + x.size());
+  }
+}
+
 }  // namespace
 
+// Between the points before `next` and at it.
+double Trace::before(std::size_t next, double place) const {
+  if (next == 0 || next == x.size() || !(x[next] > x[next - 1])) return y[std::min(next, y.size() - 1)];
+  return y[next - 1] + (y[next] - y[next - 1]) * (place - x[next - 1]) / (x[next] - x[next - 1]);
+}
+
 double Trace::at(double place) const {
-  const auto after = std::lower_bound(x.begin(), x.end(), place);
-  if (after == x.begin()) return y.front();
-  if (after == x.end()) return y.back();
-  const auto i = static_cast<std::size_t>(after - x.begin());
-  return y[i - 1] + (y[i] - y[i - 1]) * (place - x[i - 1]) / (x[i] - x[i - 1]);
+  return before(static_cast<std::size_t>(std::lower_bound(x.begin(), x.end(), place) - x.begin()), place);
+}
+
+std::vector<double> Trace::at(const std::vector<double>& places) const {
+  std::vector<double> values;
+  values.reserve(places.size());
+  const bool ascends = std::is_sorted(x.begin(), x.end());
+  std::size_t next = 0;  // the first one that is not before the place: mostly near the last one
+  for (const double place : places) {
+    while (ascends && next < x.size() && x[next] < place) ++next;
+    if (!ascends || (next > 0 && !(x[next - 1] < place)))
+      next = static_cast<std::size_t>(std::lower_bound(x.begin(), x.end(), place) - x.begin());
+    values.push_back(before(next, place));
+  }
+  return values;
 }
 
 TraceRecorder::TraceRecorder(const Model& model) : model_(&model), sources_(model) {
@@ -61,6 +86,11 @@ TraceRecorder::TraceRecorder(const Model& model) : model_(&model), sources_(mode
        {"kinetic_energy", "stored_energy", "work.driving", "work.useful", "work.harmful", "work.weight"})
     traces_->over_time.push_back({name, "J", {}, {}});
   now_.resize(traces_->over_time.size());
+  for (const WorkAccount& account : model.accounts) {
+    const auto kind = std::find(all_accounts.begin(), all_accounts.end(), account.kind);
+    works_.push_back(now_.size() - static_cast<std::size_t>(all_accounts.end() - kind));
+  }
+  block_.resize(now_.size() * rows_of_block);
   for (Trace& trace : traces_->over_time) trace.x.reserve(full), trace.y.reserve(full);
 }
 
@@ -77,21 +107,38 @@ void TraceRecorder::look(double t, std::span<const double> y, Equations& equatio
   std::size_t k = channels_.size();
   now_[k++] = equations.kinetic_energy(t, y);
   now_[k++] = equations.stored_energy(t, y);
-  for (const Account kind : all_accounts) {
-    double sum = 0;
-    for (std::size_t a = 0; a < model_->accounts.size() && equations.audit(); ++a)
-      if (model_->accounts[a].kind == kind) sum += y[equations.work_index(a)];
-    now_[k++] = sum;
+  std::fill(now_.begin() + static_cast<std::ptrdiff_t>(k), now_.end(), 0.0);
+  for (std::size_t a = 0; a < works_.size() && equations.audit(); ++a) now_[works_[a]] += y[equations.work_index(a)];
+}
+
+void TraceRecorder::put(double t, Equations& equations) {
+  std::size_t place = times_.size();
+  for (const double value : now_) block_[place] = value, place += rows_of_block;
+  times_.push_back(t);
+  angles_.push_back(angle_);
+  if (model_->cycle > 0) follow_cycle(t, sources_.drive(equations.modes().active));
+  if (times_.size() == rows_of_block) hand_over();
+}
+
+void TraceRecorder::put_jumps(double t) {
+  hand_over();
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    Trace& trace = traces_->over_time[i];
+    if (trace.y.empty() || !(std::abs(trace.y.back() - now_[i]) <= 1e-9 * std::abs(now_[i]))) push(trace, t, now_[i]);
   }
 }
 
-void TraceRecorder::put(double t, Equations& equations, bool only_jumps) {
-  for (std::size_t i = 0; i < now_.size(); ++i) {
-    Trace& trace = traces_->over_time[i];
-    if (only_jumps && !trace.y.empty() && std::abs(trace.y.back() - now_[i]) <= 1e-9 * std::abs(now_[i])) continue;
-    push(trace, t, now_[i]);
-  }
-  if (model_->cycle > 0 && !only_jumps) follow_cycle(t, sources_.drive(equations.modes().active));
+void TraceRecorder::hand_over() {
+  for (std::size_t i = 0; i < now_.size(); ++i) append(traces_->over_time[i], times_, &block_[i * rows_of_block]);
+  for (double& angle : angles_) angle -= turn_ * model_->cycle;
+  for (std::size_t k = 0; k < open_.traces.size(); ++k)
+    append(open_.traces[k], angles_, &block_[over_angle_[k] * rows_of_block]);
+  times_.clear(), angles_.clear();
+}
+
+std::shared_ptr<const Traces> TraceRecorder::traces() {
+  hand_over();
+  return traces_;
 }
 
 // A turn of the run-down is not among the cycles for figures.
@@ -103,39 +150,40 @@ void TraceRecorder::keep_open_cycle() {
   if (traces_->last_cycles.size() > 2) traces_->last_cycles.pop_front();
 }
 
+void TraceRecorder::begin_cycle(double t, bool driven) {
+  open_ = {t, t, {}};
+  open_driven_ = driven;
+  for (const std::size_t i : over_angle_) {
+    const Trace& like = traces_->over_time[i];
+    open_.traces.push_back({like.name, like.unit, {}, {}, like.what, like.of});
+  }
+}
+
+// The latest row is in the block already; the next turn begins with it, too.
 void TraceRecorder::follow_cycle(double t, bool driven) {
   const double turn = std::floor(angle_ / model_->cycle + 1e-12);
-  const auto start = [&] {
-    open_ = {t, t, {}};
-    open_driven_ = driven;
-    for (const std::size_t i : over_angle_) {
-      const Trace& like = traces_->over_time[i];
-      open_.traces.push_back({like.name, like.unit, {}, {}, like.what, like.of});
-    }
-  };
-  const auto add = [&](double within) {
-    for (std::size_t k = 0; k < over_angle_.size(); ++k) push(open_.traces[k], within, now_[over_angle_[k]]);
-    open_.end = t;
-  };
   if (open_.traces.empty()) {
     turn_ = turn;
     open_whole_ = std::abs(angle_ - turn * model_->cycle) < 1e-6;
-    start();
+    begin_cycle(t, driven);
   } else if (turn != turn_) {
     open_driven_ = open_driven_ && driven;
-    add(angle_ - turn_ * model_->cycle);
+    open_.end = t;
+    hand_over();
     if (open_whole_ && turn > turn_) keep_open_cycle();
     open_whole_ = turn > turn_;
     turn_ = turn;
-    start();
+    begin_cycle(t, driven);
+    for (std::size_t k = 0; k < over_angle_.size(); ++k)
+      push(open_.traces[k], angle_ - turn_ * model_->cycle, now_[over_angle_[k]]);
   }
   open_driven_ = open_driven_ && driven;
-  add(angle_ - turn_ * model_->cycle);
+  open_.end = t;
 }
 
 void TraceRecorder::begin(double t, std::span<const double> y, Equations& equations) {
   look(t, y, equations);
-  put(t, equations, false);
+  put(t, equations);
 }
 
 // Where the link passes from one turn to the next, so that cycles begin and end there and not at the next sample.
@@ -155,7 +203,7 @@ void TraceRecorder::step(StepView& view) {
   Equations& equations = view.equations();
   if (view.begins_anew()) {
     look(t0, view.y_previous(), equations);
-    put(t0, equations, true);
+    put_jumps(t0);
   }
   double before = t0;
   for (int i = 1; i <= samples_per_step; ++i) {
@@ -164,10 +212,10 @@ void TraceRecorder::step(StepView& view) {
     if (model_->cycle > 0)
       if (const std::optional<double> border = border_between(before, angle_before, t, angle_, view)) {
         look(*border, view.at(*border), equations);
-        put(*border, equations, false);
+        put(*border, equations);
         look(t, view.at(t), equations);
       }
-    put(t, equations, false);
+    put(t, equations);
     before = t;
   }
 }

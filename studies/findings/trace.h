@@ -18,7 +18,12 @@ struct Trace {
   std::vector<double> x, y;
   QuantityKind what = {};
   std::string of = {};
-  double at(double x) const;  // straight between the points, which ascend in x; the first or the last value beyond them
+  // Straight between the points, which ascend in x; the first or the last value beyond them.
+  double at(double place) const;
+  std::vector<double> at(const std::vector<double>& places) const;
+
+ private:
+  double before(std::size_t next, double place) const;
 };
 
 // One whole cycle of the reduction link; the traces run over its angle from 0 [rad].
@@ -45,21 +50,26 @@ class TraceRecorder final : public Observer {
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
 
-  std::shared_ptr<const Traces> traces() const { return traces_; }
+  // After the run: what was recorded until now.
+  std::shared_ptr<const Traces> traces();
 
  private:
   void look(double t, std::span<const double> y, Equations& equations);  // now_ and angle_
-  void put(double t, Equations& equations, bool only_jumps);
+  void put(double t, Equations& equations);
+  void put_jumps(double t);
+  void hand_over();  // the rows of the block
   // Angles of the link at both times.
   std::optional<double> border_between(double from, double angle_from, double to, double angle_to,
                                        StepView& view) const;
   void keep_open_cycle();
+  void begin_cycle(double t, bool driven);
   void follow_cycle(double t, bool driven);
 
   const Model* model_;  // outlives the run
   std::vector<Channel> channels_;
   std::shared_ptr<Traces> traces_ = std::make_shared<Traces>();
   std::vector<std::size_t> over_angle_;  // traces that are also followed over the angle
+  std::vector<std::size_t> works_;       // of each account of the model, the trace of its kind
   CycleTraces open_;
   double turn_ = 0;          // number of the open cycle
   bool open_whole_ = false;  // it was recorded from its beginning
@@ -68,6 +78,8 @@ class TraceRecorder final : public Observer {
   Sources sources_;
   std::vector<double> now_;
   double angle_ = 0;  // of the link
+  // The latest rows, column by column; each column is appended to its trace at one go.
+  std::vector<double> block_, times_, angles_;
 };
 
 }  // namespace kurbel

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
+#include <type_traits>
+#include <utility>
 
 #include "engine/scene/units.h"
 #include "studies/data/value.h"
@@ -45,6 +47,9 @@ List rounded(const std::vector<std::vector<double>>& lists, int digits) {
   return each(lists, [digits](const std::vector<double>& list) { return RoundedList{list, digits}; });
 }
 
+// An initializer list copies its values: what is long is added by this.
+void add(Record& record, const char* key, Value value) { record.push_back({key, std::move(value)}); }
+
 Record record_of(const ColourMap& map) {
   return {{"name", map.name},
           {"unit", map.unit},
@@ -71,15 +76,9 @@ Record series_record(const Plot& plot, const Series& series) {
 }
 
 Record record_of(const Plot& plot) {
-  Record r = {
-      {"kind", "plot"},
-      {"title", plot.title},
-      {"note", plot.note},
-      {"equalAxes", plot.equal_axes},
-      {"bars", plot.bars},
-      {"x", record_of(plot.x)},
-      {"y", record_of(plot.y)},
-      {"series", each(order_of_drawing(plot), [&](std::size_t i) { return series_record(plot, plot.series[i]); })}};
+  Record r = {{"kind", "plot"},    {"title", plot.title},    {"note", plot.note},     {"equalAxes", plot.equal_axes},
+              {"bars", plot.bars}, {"x", record_of(plot.x)}, {"y", record_of(plot.y)}};
+  add(r, "series", each(order_of_drawing(plot), [&](std::size_t i) { return series_record(plot, plot.series[i]); }));
   if (plot.wide) r.push_back({"wide", true});
   if (plot.map) r.push_back({"map", record_of(*plot.map)});
   r.push_back({"bands", each(plot.bands, [](const Band& band) {
@@ -100,9 +99,12 @@ const char* class_of(Tone tone) {
 }
 
 Record record_of(const Table& table) {
-  Record r = {{"kind", "table"},          {"title", table.title},
-              {"folded", table.folded},   {"textColumns", table.text_columns},
-              {"columns", table.columns}, {"rows", table.rows}};
+  Record r = {{"kind", "table"},
+              {"title", table.title},
+              {"folded", table.folded},
+              {"textColumns", table.text_columns},
+              {"columns", table.columns}};
+  add(r, "rows", table.rows);
   if (!table.tones.empty())
     r.push_back({"tones", each(table.tones, [](const std::vector<Tone>& row) { return each(row, class_of); })});
   if (!table.means.empty()) r.push_back({"means", table.means});
@@ -158,19 +160,18 @@ Record record_of(const MachineView::Linkage& linkage) {
 }
 
 Record record_of(const MachineView::Motion& motion) {
-  Record r = {{"label", motion.label},
-              {"role", name_of(motion.role)},
-              {"angle", RoundedList{motion.angle}},
-              {"twistIn", rounded(motion.twist_in, 4)},
-              {"twistOut", rounded(motion.twist_out, 4)}};
+  Record r = {{"label", motion.label}, {"role", name_of(motion.role)}};
+  add(r, "angle", RoundedList{motion.angle});
+  add(r, "twistIn", rounded(motion.twist_in, 4));
+  add(r, "twistOut", rounded(motion.twist_out, 4));
   if (!motion.slip_in.empty()) {
-    r.push_back({"slipIn", rounded(motion.slip_in, 5)});
-    r.push_back({"slipOut", rounded(motion.slip_out, 5)});
+    add(r, "slipIn", rounded(motion.slip_in, 5));
+    add(r, "slipOut", rounded(motion.slip_out, 5));
   }
-  r.push_back({"torque", rounded(motion.torque, 4)});
-  r.push_back({"force", rounded(motion.force, 4)});
-  r.push_back({"bend", rounded(motion.bend, 4)});
-  r.push_back({"shift", rounded(motion.shift, 4)});
+  add(r, "torque", rounded(motion.torque, 4));
+  add(r, "force", rounded(motion.force, 4));
+  add(r, "bend", rounded(motion.bend, 4));
+  add(r, "shift", rounded(motion.shift, 4));
   return r;
 }
 
@@ -210,16 +211,17 @@ List records_of(const Parts& parts) {
 }
 
 Record record_of(const MachineView& machine) {
-  return {{"kind", "machine"},
-          {"title", machine.title},
-          {"link", machine.link},
-          {"enlargement", Rounded{machine.enlargement}},
-          {"cycle", Rounded{machine.cycle > 0 ? machine.cycle : 2 * std::numbers::pi, 12}},
-          {"parts", records_of(machine.parts)},
-          {"ties", records_of(machine.ties)},
-          {"linkages", records_of(machine.linkages)},
-          {"time", RoundedList{machine.time}},
-          {"motions", records_of(machine.motions)}};
+  Record r = {{"kind", "machine"},
+              {"title", machine.title},
+              {"link", machine.link},
+              {"enlargement", Rounded{machine.enlargement}},
+              {"cycle", Rounded{machine.cycle > 0 ? machine.cycle : 2 * std::numbers::pi, 12}},
+              {"parts", records_of(machine.parts)},
+              {"ties", records_of(machine.ties)}};
+  add(r, "linkages", records_of(machine.linkages));
+  add(r, "time", RoundedList{machine.time});
+  add(r, "motions", records_of(machine.motions));
+  return r;
 }
 
 Record record_of(const GearView& view) {
@@ -242,9 +244,11 @@ Record record_of(const GearView& view) {
 }
 
 Record section_record(const ReportSection& section) {
-  return {{"title", section.title}, {"cards", each(section.cards, [](const Card& card) {
-                                       return std::visit([](const auto& c) { return record_of(c); }, card);
-                                     })}};
+  Record r = {{"title", section.title}};
+  add(r, "cards", each(section.cards, [](const Card& card) {
+        return std::visit([](const auto& c) { return record_of(c); }, card);
+      }));
+  return r;
 }
 
 // All texts in it, one per line.
@@ -260,13 +264,12 @@ Record record_of(const Report& report, const Letterhead& head) {
   Record r = {{"title", report.title}};
   if (!head.brand_svg.empty()) r.push_back({"brand", head.brand_svg});
   if (!head.author.empty()) r.push_back({"author", head.author});
-  for (Field& field : Record{{"subtitle", report.subtitle},
-                             {"conclusion", report.conclusion},
-                             {"complete", report.complete},
-                             {"footer", report.footer},
-                             {"figures", records_of(report.figures)},
-                             {"sections", each(report.sections, section_record)}})
-    r.push_back(std::move(field));
+  add(r, "subtitle", report.subtitle);
+  add(r, "conclusion", report.conclusion);
+  add(r, "complete", report.complete);
+  add(r, "footer", report.footer);
+  add(r, "figures", records_of(report.figures));
+  add(r, "sections", each(report.sections, section_record));
   if (!report.meanings.empty()) r.push_back({"meanings", records_of(report.meanings)});
   std::string words;
   for (const Field& field : r) add_words(field.value, words);
@@ -300,23 +303,32 @@ std::vector<EventMark> marks_drawn(const Plot& plot) {
 }
 
 Series drawn(const Series& series) {
-  Series s = series;
-  if (s.labels.size() != s.x.size()) s.labels.clear();
-  if (s.sizes.size() != s.x.size()) s.sizes.clear();
-  if (s.x.size() <= points_per_series) return s;
-  if (s.line) {
-    s.labels.clear(), s.sizes.clear();
-    thin_by_extremes(s.x, s.y, points_per_series);
-    return s;
+  const bool labels = series.labels.size() == series.x.size(), sizes = series.sizes.size() == series.x.size();
+  if (series.x.size() <= points_per_series) {
+    Series all = series;
+    if (!labels) all.labels.clear();
+    if (!sizes) all.sizes.clear();
+    return all;
   }
-  const std::vector<std::size_t> kept = drawn_by_chance(s.x.size(), points_per_series);
-  const auto keep = [&kept](auto& list) {
-    if (list.empty()) return;
-    for (std::size_t i = 0; i < kept.size(); ++i) std::swap(list[i], list[kept[i]]);
-    list.resize(kept.size());
+  const std::vector<std::size_t> kept = series.line ? kept_by_extremes(series.x, series.y, points_per_series)
+                                                    : drawn_by_chance(series.x.size(), points_per_series);
+  const auto chosen = [&kept](const auto& list, bool any) {
+    std::remove_cvref_t<decltype(list)> some;
+    some.reserve(any ? kept.size() : 0);
+    for (std::size_t i = 0; i < kept.size() && any; ++i) some.push_back(list[kept[i]]);
+    return some;
   };
-  keep(s.x), keep(s.y), keep(s.labels), keep(s.sizes);
-  return s;
+  return {.name = series.name,
+          .role = series.role,
+          .x = chosen(series.x, true),
+          .y = chosen(series.y, !series.y.empty()),
+          .dashed = series.dashed,
+          .points = series.points,
+          .line = series.line,
+          .labels = chosen(series.labels, labels && !series.line),
+          .sizes = chosen(series.sizes, sizes && !series.line),
+          .text_at_start = series.text_at_start,
+          .text_at_end = series.text_at_end};
 }
 
 std::string html_of(const Report& report, const Letterhead& head) {

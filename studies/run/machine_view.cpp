@@ -25,11 +25,7 @@ constexpr double shown_twist = 1.1;  // of the largest one after enlargement [ra
 constexpr double shown_bend = 0.12;  // of the rod's length
 
 std::vector<double> sampled(const Trace* trace, const std::vector<double>& time) {
-  std::vector<double> values;
-  if (!trace || trace->x.empty()) return values;
-  values.reserve(time.size());
-  for (const double t : time) values.push_back(trace->at(t));
-  return values;
+  return trace && !trace->x.empty() ? trace->at(time) : std::vector<double>();
 }
 
 // 1, 2 or 5 times a power of ten, not above x.

@@ -160,13 +160,6 @@ std::optional<Plot> tachogram(const Results& results, const std::string& channel
   return plot;
 }
 
-// A trace interpolated at the abscissae of another one.
-std::vector<double> at_places(const Trace& trace, const std::vector<double>& angles) {
-  std::vector<double> values;
-  for (const double angle : angles) values.push_back(trace.at(angle));
-  return values;
-}
-
 // The gas force on a mechanism with a compressor as its only load; else null.
 const CompressorForce* compressor_of(const Network& network, const std::string& name) {
   const Mechanism* mechanism = find_mechanism(network, name);
@@ -190,8 +183,7 @@ std::optional<Plot> indicator_diagram(const Results& results, const std::string&
       if (t.of == mechanism && (t.what == quantities::force || t.what == quantities::load_torque)) force = &t;
     }
     if (!travel || !force) continue;
-    plot.series.push_back(
-        {.name = r->label, .role = role_of(*r, results), .x = at_places(*travel, force->x), .y = force->y});
+    plot.series.push_back({.name = r->label, .role = role_of(*r, results), .x = travel->at(force->x), .y = force->y});
     for (const double x : travel->y) farthest = std::max(farthest, std::abs(x));
     for (const double y : force->y) largest = std::max(largest, std::abs(y));
   }
@@ -242,7 +234,7 @@ std::optional<Plot> product_over_time(const Results& results, const std::string&
   for (const Result* r : results) {
     const Trace *first = r->traces->find(channel), *second = r->traces->find(times);
     if (!first || !second || first->x.empty() || second->x.empty()) continue;
-    Series s{.name = r->label, .role = role_of(*r, results), .x = first->x, .y = at_places(*second, first->x)};
+    Series s{.name = r->label, .role = role_of(*r, results), .x = first->x, .y = second->at(first->x)};
     for (std::size_t i = 0; i < s.y.size(); ++i) s.y[i] *= first->y[i];
     plot.series.push_back(std::move(s));
   }

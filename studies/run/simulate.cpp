@@ -327,9 +327,9 @@ class Simulation {
     if (options_.traces && !result_.traces) {
       run->traces = std::make_unique<TraceRecorder>(*model_);
       observers.push_back(run->traces.get());
-      result_.traces = run->traces->traces();
     }
     run->outcome = integrate(equations, options, observers);
+    if (run->traces) result_.traces = run->traces->traces();
     result_.cpu_total += run->outcome.statistics.cpu_seconds;
     result_.flow_calls += run->outcome.statistics.stepper.flow_calls;
     if (!run->outcome.state.empty()) collect_figures(model, equations, tolerance, *run);

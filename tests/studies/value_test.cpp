@@ -66,7 +66,7 @@ TEST(Values, AnEstimateIsTwoFieldsOfItsRecord) {
 // Of all magnitudes, beside decimals and beside the middles between them: printf's digits.
 TEST(Values, DigitsAreThoseOfPrintf) {
   std::mt19937_64 random(2);
-  std::uniform_real_distribution<double> exponent(-7, 14), sign(-1, 1);
+  std::uniform_real_distribution<double> exponent(-12, 17), sign(-1, 1);
   for (int i = 0; i < 50000; ++i) {
     const double decimal = std::round(1e6 * sign(random)) / std::pow(10.0, i % 9),
                  middle = decimal + 5 / std::pow(10.0, i % 13);
