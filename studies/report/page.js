@@ -491,7 +491,7 @@
   }
   function addTable(table, card) {
     const scroll = make('div', 'scroll', null, fold(card, table.title, table.folded));
-    const element = make('table', '', null, scroll);
+    const element = make('table', table.columns.length > 9 ? 'dense' : '', null, scroll);
     const head = make('tr', '', null, make('thead', '', null, element));
     // Sentences are read from the left, wherever they stand, and so are names; a column is what more than half of it is.
     const mostly = (column, is) => { const filled = table.rows.map(row => row[column]).filter(text => text && text !== '—'); return 2 * filled.filter(is).length > filled.length; };
