@@ -20,7 +20,7 @@ namespace kurbel::plain_sentences_test {
 namespace {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-SimulateOptions once() { return {.measure_error = false, .method = {}, .accuracy = {}, .until = {}}; }
+SimulateOptions once() { return {.measure_error = false, .traces = true, .method = {}, .accuracy = {}, .until = {}}; }
 
 std::vector<std::string> titles(const std::vector<Plot>& plots) {
   std::vector<std::string> all;
