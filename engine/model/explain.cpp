@@ -46,11 +46,16 @@ std::string connection_line(const Model& m, const ElasticJoint& e) {
 std::string merged_lines(const Model& m) {
   std::string text;
   for (const std::string& line : m.merged) text += "  merged: " + line + "\n";
+  std::map<std::string, std::pair<int, int>> stages;  // of each component: in all, and named so far
+  const auto is_gear = [](const Network::Joint& joint) { return !joint.element && joint.ratio != 1; };
   for (const Network::Joint& joint : m.network.joints)
-    if (!joint.element && joint.ratio != 1)
-      text +=
-          fmt::format("  merged: gear of \"{}\", ratio {:.6g}; inertias behind it count by the square of the ratio\n",
-                      joint.component, joint.ratio);
+    if (is_gear(joint)) ++stages[joint.component].first;
+  for (const Network::Joint& joint : m.network.joints) {
+    if (!is_gear(joint)) continue;
+    auto& [all, named] = stages[joint.component];
+    text += fmt::format("  merged: {} of \"{}\", ratio {:.6g}; inertias behind it count by the square of the ratio\n",
+                        all > 1 ? fmt::format("stage {}", ++named) : "gear", joint.component, joint.ratio);
+  }
   return text;
 }
 
@@ -96,7 +101,12 @@ bool Model::has_memory() const {
 
 std::string Model::explain() const {
   const std::size_t twists = elastic.size();
-  std::string text = fmt::format("effects on: {}\n", effects.describe());
+  const bool lags = std::any_of(internal_states.begin(), internal_states.end(),
+                                [](const PlacedInternalState& own) { return own.state.lags; });
+  // An elastic machine has it without mention.
+  const bool mentioned = effects.describe().find("torque lag") != std::string::npos;
+  std::string text =
+      fmt::format("effects on: {}{}\n", effects.describe(), lags && !mentioned ? ", with torque lag" : "");
   text += fmt::format("coordinates: {} = {} shaft speed{}{}; angles kept: {} (turns apart from the remainder)\n",
                       free_shafts + twists, free_shafts, free_shafts == 1 ? "" : "s",
                       twists ? fmt::format(" + {} twist{}", twists, twists == 1 ? "" : "s") : "", angles.size());

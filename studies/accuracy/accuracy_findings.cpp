@@ -205,6 +205,12 @@ void add_key_figures(Findings& f, const AccuracyStudy& study) {
         fmt::format("the fastest: {}", study.name_of(*fastest)), 4);
 }
 
+const std::string& conclusion_of(const AccuracyStudy& study) {
+  return !study.answers.empty()    ? study.answers.front()
+         : !study.findings.empty() ? study.findings.front()
+                                   : study.diagnosis;
+}
+
 Text how_measured(const AccuracyStudy& study) {
   const ModelLevel& full = study.levels[study.fullest];
   return {
@@ -226,7 +232,8 @@ void show_measured(Findings& f, const AccuracyStudy& study) {
                 omitted = f.chapter("Omitted");
   std::vector<std::string> sentences;
   for (const auto* list : {&study.findings, &study.answers})
-    for (const std::string& sentence : *list) sentences.push_back(sentence + ".");
+    for (const std::string& sentence : *list)
+      if (sentence != conclusion_of(study)) sentences.push_back(sentence + ".");
   f.say(words, Sentences{.lines = sentences, .terminal = false});
   f.draw(plane, [&study] { return total_plots(study); });
   f.draw(motion, [&study] { return motion_cost_plots(study); });
@@ -240,10 +247,9 @@ void show_measured(Findings& f, const AccuracyStudy& study) {
 }  // namespace
 
 Findings findings_of(const AccuracyStudy& study) {
-  const std::string first = study.findings.empty() ? study.diagnosis : study.findings.front();
   Findings f = Findings::of(study, "What accuracy costs: methods, tolerances and models against converged references");
   f.opening = Findings::Opening::title_and_conclusion, f.footer = machine_info() + " · " + report_footer();
-  f.conclude(study.complete, study.answers.empty() ? first : study.answers.front());
+  f.conclude(study.complete, conclusion_of(study));
   const bool measured = !study.settings.empty() && !study.figures.empty();
   const Chapter terminal = f.chapter("");  // nothing of it on the page
   const auto say = [&](Sentences words) {

@@ -115,17 +115,18 @@ class Judge {
     const MeasuredSetting* before = cheapest_within(1e-2);
     if (!before) return "";
     double error = 1e-2;
-    std::string dearer;
+    double least = HUGE_VAL, most = 0;
     for (double next = 1e-3; next > 1.5e-12; next /= 10) {
       const MeasuredSetting* s = cheapest_within(next);
       if (!s) break;
-      dearer += fmt::format("{}{:.2g} ×", dearer.empty() ? "" : ", ", s->seconds / before->seconds);
+      least = std::min(least, s->seconds / before->seconds), most = std::max(most, s->seconds / before->seconds);
       before = s;
       error = next;
     }
-    if (dearer.empty()) return fmt::format("No setting tried is nearer to {} than 1 %", key());
-    return fmt::format("Digit by digit from 1 % to {:.0e} (relative) the time grows by {}; there it is {}", error,
-                       dearer, reported(*before));
+    if (most == 0) return fmt::format("No setting tried is nearer to {} than 1 %", key());
+    return fmt::format(
+        "From 1 % to {:.0e} (relative) each further digit costs {:.1f} … {:.1f} × the time; there it is {}", error,
+        least, most, reported(*before));
   }
 
   // Where a tighter tolerance is useless because the model error dominates.

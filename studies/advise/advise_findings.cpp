@@ -122,7 +122,8 @@ Plot plane(const Advice& a) {
                          .x = {low, high},
                          .y = {100 * a.tolerance, 100 * a.tolerance},
                          .dashed = true});
-  plot.note = "Deviations below a millionth of a per cent are drawn there.";
+  for (const Series& s : plot.series)
+    if (std::count(s.y.begin(), s.y.end(), least_shown)) plot.note = "Smaller deviations are drawn at 10⁻⁶ %.";
   return plot;
 }
 

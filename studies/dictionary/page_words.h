@@ -64,14 +64,16 @@ inline constexpr PageWord of_pages[] = {
     {"inertia; inertia [*]", of_all,
      "moment of inertia of the row's part, about its own axis unless it is said to be reduced"},
     {"share; share [*]", of_all, "of the row in the sum that the title of the table names"},
-    {"crank angle; engine angle; * angle", of_all, "angle of the shaft named, over one cycle"},
-    {"travel; slider speed", "run, compare", "position and velocity of what the mechanism moves"},
+    {"crank angle; engine angle; * angle; angle of *", of_all, "angle of the shaft named, over one cycle"},
+    {"travel; slider speed; output speed", "run, compare", "position and velocity of what the mechanism moves"},
     {"transmission angle; transmission angle of *", "forces, reduce",
      "between coupler (or rod) and the link or line that it drives; 90° transmits best, below some 40° friction may "
      "jam it; the least of the cycle is shown"},
     {"time ratio", "forces, reduce", "of the slower stroke's crank angle to the quicker one's (quick return: > 1)"},
-    {"dead centre; dead centres", "forces, reduce",
-     "crank angles where the output stands and turns back: crank and coupler (or rod) lie in one line"},
+    {"dead centre; dead centres; folded dead centre; extended dead centre", "forces, reduce",
+     "crank angles where the output stands and turns back: crank and coupler (or rod) lie in one line, folded over "
+     "each "
+     "other or extended"},
     {"stroke", "forces, reduce", "way or angle of the output from one dead centre to the other"},
     {"linkage of class *; class of a linkage; RRR; RRP; RPR; dyad", "forces, reduce",
      "Assur's class by the groups of links that close it: II of dyads alone, named by their joints, R turning, P "
@@ -90,7 +92,7 @@ inline constexpr PageWord of_pages[] = {
     {"elastic/rigid; ratio", "compare, report", "value of the elastic model over that of the rigid one"},
     {"off; on; effect; effects; effects on; omitted; none; elasticity; elasticity *; joint friction; backlash; mesh "
      "variation; transients; torque lag; relaxation; bearing friction; gear losses; joint clearance; flexible rod; "
-     "gravity; variable inertia; load edges",
+     "gravity; variable inertia; load edges; load edge",
      "run, compare, effects, advise",
      "physical effects of the model (docs/effects.md), and key figures without and with the one in this row"},
     {"kinetic energy; kinetic energy at *; stored in springs; stored in springs at *; energy balance closes to; energy "
@@ -117,8 +119,12 @@ inline constexpr PageWord of_pages[] = {
      "figures of both machines, their difference, the same over the first, and whether it exceeds both numerical "
      "errors"},
     {"rises; falls", "diff, steady", "sign of the change"},
+    {"thermal load; thermal load of *", "run, compare, steady",
+     "of a motor: RMS torque over its rated torque, the figure thermal_use; above 100 % it overheats"},
     // steady
-    {"multiplier; magnitude; halves in cycles; real part; imaginary part; unit circle", "steady",
+    {"multiplier; multipliers; Floquet multiplier; Floquet multipliers; magnitude; halves in cycles; real part; "
+     "imaginary part; unit circle",
+     "steady",
      "Floquet multipliers μ: factors of small deviations over one cycle, stable inside of |μ| = 1; halves in ln 2/(−ln "
      "|μ|)"},
     {"mean torque over a cycle; drive M_d; loads M_c; stable", "steady",

@@ -105,7 +105,8 @@ inline constexpr Definition of_one_study[] = {
      "a peak torque: the mean is not in it, nor is anything not linear"},
     {"spot_amplitude", "amplitude at a speed of the range, by the nonlinear cycle", "N*m", "", "12.13", "modes",
      "the greatest departure of a joint's torque from its mean in the nonlinear cycle of the machine whose mean speed "
-     "is held there, at the spot check where the linear response is off by most",
+     "is held there, at the spot check with the highest use of the limits; among requested speeds only, where the "
+     "linear response is off by most",
      "", "the steady motion: torques proportional to inertia hold the speed"},
     {"nominal_torque_verdict", "mean torque against T_KN", "N*m", "", "12.9", "modes",
      "K_A S_t times the mean of a joint's torque over a cycle of the steady motion", "K_A S_t |T_mean| ≤ T_KN",

@@ -32,11 +32,16 @@ std::string percent(double relative) {
   return std::abs(relative) >= 10 ? fmt::format("× {:.3g}", 1 + relative) : fmt::format("{:+.3g} %", 100 * relative);
 }
 
-// The differing figures by size; those relevant for a headline have a higher weight.
+bool changes_sign(const FigureDifference& f) { return *f.relative() < -1; }
+
+// The differing figures by size; those relevant for a headline have a higher weight. Without those that change sign, of
+// which a percentage says nothing, unless all do.
 std::vector<const FigureDifference*> by_size(const MachineDifference& d) {
   std::vector<const FigureDifference*> list;
   for (const FigureDifference& f : d.figures)
     if (f.differs() && f.relative()) list.push_back(&f);
+  if (!std::all_of(list.begin(), list.end(), [](const auto* f) { return changes_sign(*f); }))
+    std::erase_if(list, [](const auto* f) { return changes_sign(*f); });
   const auto rank = [](const FigureDifference& f) { return (f.reporting ? 10 : 1) * f.weight(); };
   std::stable_sort(list.begin(), list.end(), [&](const auto* x, const auto* y) { return rank(*x) > rank(*y); });
   return list;
@@ -124,8 +129,10 @@ Rows change_table(const MachineDifference& d) {
 
 std::optional<Plot> picture(const MachineDifference& d) {
   constexpr std::size_t most = 14;
-  const auto list = by_size(d);
-  if (list.empty()) return {};
+  auto list = by_size(d);
+  if (list.empty() || changes_sign(*list.front())) return {};
+  const auto height = [](const FigureDifference& f) { return std::abs(*f.relative()); };
+  std::stable_sort(list.begin(), list.end(), [&](const auto* x, const auto* y) { return height(*x) > height(*y); });
   const Names names = names_of(d);
   Plot plot{.title = fmt::format("What changes from {} to {}", names.a, names.b),
             .x = {.label = "figure"},
@@ -141,6 +148,11 @@ std::optional<Plot> picture(const MachineDifference& d) {
   for (Series* series : {&up, &down})
     if (!series->x.empty()) plot.series.push_back(std::move(*series));
   if (list.size() > most) plot.note = fmt::format("The {} greatest of {} changes.", most, list.size());
+  const auto turned = std::count_if(d.figures.begin(), d.figures.end(), [](const FigureDifference& f) {
+    return f.differs() && f.relative() && changes_sign(f);
+  });
+  if (turned > 0)
+    plot.note += fmt::format("{}{} more change sign: see the table.", plot.note.empty() ? "" : " ", turned);
   return plot;
 }
 

@@ -118,7 +118,8 @@ Plot plane(const EffectStudy& s) {
                            .points = true,
                            .line = false});
   }
-  plot.note = "Changes below a millionth of a per cent are drawn there.";
+  for (const Series& drawn : plot.series)
+    if (drawn.y.front() <= least_shown) plot.note = "Smaller changes are drawn at 10⁻⁶ %.";
   return plot;
 }
 

@@ -52,4 +52,7 @@ inline Plot in_readable_unit(Plot plot, const std::string& si_unit, const SpeedU
   return in_readable_unit(std::move(plot), si_unit, largest, speed);
 }
 
+// On a tile: a unit is kept up to 10 000.
+ReadableUnit unit_on_tile(double value, const std::string& unit);
+
 }  // namespace kurbel

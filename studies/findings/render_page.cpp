@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <regex>
 #include <set>
 
@@ -9,6 +10,7 @@
 #include "studies/claims/headline.h"
 #include "studies/dictionary/dictionary.h"
 #include "studies/findings/output.h"
+#include "studies/findings/plots.h"
 
 namespace kurbel {
 namespace {
@@ -33,15 +35,31 @@ std::vector<std::string> definition_ids(const Rows& rows) {
   return ids;
 }
 
+// Columns without a text in any row.
+void omit_empty_columns(Table& table) {
+  if (table.rows.empty()) return;
+  for (std::size_t k = table.columns.size(); k-- > 0;) {
+    if (std::any_of(table.rows.begin(), table.rows.end(), [k](const auto& row) { return !row[k].empty(); })) continue;
+    const auto omit = [at = static_cast<std::ptrdiff_t>(k)](auto& cells) { cells.erase(cells.begin() + at); };
+    omit(table.columns);
+    for (auto& row : table.rows) omit(row);
+    for (auto& row : table.tones)
+      if (row.size() > k) omit(row);
+    if (k < table.text_columns) --table.text_columns;
+  }
+}
+
 void show(Cards& cards, const Rows& rows) {
-  if (rows.page && rows.shown_to_people())
-    cards.push_back(Table{.title = rows.title,
-                          .columns = rows.headings(),
-                          .rows = rows.texts(),
-                          .folded = rows.folded,
-                          .text_columns = rows.text_columns,
-                          .tones = rows.tones,
-                          .means = definition_ids(rows)});
+  if (!rows.page || !rows.shown_to_people()) return;
+  Table table{.title = rows.title,
+              .columns = rows.headings(),
+              .rows = rows.texts(),
+              .folded = rows.folded,
+              .text_columns = rows.text_columns,
+              .tones = rows.tones,
+              .means = definition_ids(rows)};
+  omit_empty_columns(table);
+  cards.push_back(std::move(table));
 }
 void show(Cards& cards, const Sentences& words) {
   if (words.page && !words.lines.empty()) cards.push_back(Text{.title = words.title, .body = joined(words.lines)});
@@ -65,8 +83,19 @@ std::string readable_note(const std::string& note) {
   }
   return readable(text.append(rest, note.end()));
 }
+// Lines of the legend that have the colour of an earlier one are dashed: there are six for a list.
+void dash_repeated_colours(Plot& plot) {
+  std::map<Role, int> drawn;
+  for (Series& s : plot.series) {
+    const bool told = !s.name.empty() && s.text_at_start.empty() && s.text_at_end.empty();
+    if (plot.bars || !told || !s.line || s.dashed || s.role == Role::reference) continue;
+    s.dashed = drawn[s.role]++ % 2 == 1;
+  }
+}
+
 // Converts numbers in texts of a plot to readable form.
 void make_readable(Plot& plot) {
+  dash_repeated_colours(plot);
   plot.title = readable(plot.title);
   plot.note = readable_note(plot.note);
   for (Series& series : plot.series) series.name = readable(series.name);
@@ -154,9 +183,7 @@ void Findings::show_scene(const std::string& file, const std::string& text) {
 
 // "629.3 kN", "85.5 MPa", "570 kN·m/rad"; speeds are in the scene's unit already.
 void in_readable_unit(KeyFigure& figure) {
-  constexpr double large = 1e4;
-  if (!(std::abs(figure.value) >= large)) return;
-  const ReadableUnit unit = readable_unit(figure.value, figure.unit);
+  const ReadableUnit unit = unit_on_tile(figure.value, figure.unit);
   static_cast<Estimate&>(figure) = unit.factor * figure;
   figure.unit = unit.unit;
 }
@@ -178,7 +205,7 @@ Report page_of(const Findings& f) {
   for (KeyFigure& figure : page.figures) {
     figure.means = definition_id(figure.means);
     figure.note = headline(figure.note);
-    if (figure.unit != "rad/s") in_readable_unit(figure);
+    in_readable_unit(figure);
   }
   page.meanings = meanings_of(page);
   return page;

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "engine/scene/units.h"
+#include "studies/findings/plots.h"
 
 namespace kurbel {
 
@@ -33,6 +34,11 @@ ReadableUnit readable_unit(double largest, const std::string& si_unit, const Spe
   if (si_unit == "Pa" && largest >= 2e5) return {"MPa", 1e-6};
   if (si_unit == "rad") return largest < 0.2 ? ReadableUnit{"mrad", 1e3} : ReadableUnit{"rad", 1};
   return {pretty_unit(si_unit), 1};
+}
+
+ReadableUnit unit_on_tile(double value, const std::string& unit) {
+  constexpr double large = 1e4;
+  return unit == "rad/s" || !(std::abs(value) >= large) ? ReadableUnit{unit, 1} : readable_unit(value, unit);
 }
 
 std::string report_footer() {

@@ -144,8 +144,10 @@ class FitWork {
             ? "the machine's own error ([run] accuracy): the residual is smaller"
         : !by_scatter ? "the residual, as noise of its own correlation length"
         : study_.chi_squared > 1
-            ? fmt::format("the scatter of cycles, times {:.3g}, as the residual is larger by that factor",
-                          std::sqrt(study_.chi_squared))
+            ? fmt::format(
+                  "the scatter of cycles, times {:.3g}, as the residual over its {:.3g} degrees of freedom is "
+                  "larger by that factor",
+                  std::sqrt(study_.chi_squared), freedom)
             : "the scatter of cycles";
     constexpr double contradictory = 2;
     if (problem_.records().size() > 1 && reduced > contradictory)
@@ -269,7 +271,8 @@ class FitWork {
                                  .over = record.over,
                                  .at = record.at,
                                  .measured = channel.mean,
-                                 .shown = {s.begin(), s.end()}});
+                                 .shown = {s.begin(), s.end()},
+                                 .orders = c.orders()});
         if (record.over == Over::time) say_bands(study_.curves.back());
       }
       if (record.over == Over::angle) say_orders(r, points);
@@ -322,6 +325,14 @@ class FitWork {
       }
   }
 
+  // "in the orders compared (0.5, 1.5) "; empty: no record is compared by orders.
+  std::string orders_compared() const {
+    std::vector<double> orders;
+    for (const ComparedRecord& c : problem_.comparisons())
+      orders.insert(orders.end(), c.orders().begin(), c.orders().end());
+    return orders.empty() ? "" : fmt::format("in the orders compared ({}) ", list_of_orders(std::move(orders)));
+  }
+
   void conclude() {
     for (const FittedUnknown& u : study_.unknowns) {
       if (u.unknown.kind != Unknown::Kind::key && study_.unknowns.size() > 3) continue;
@@ -330,8 +341,11 @@ class FitWork {
                       with_error(u, u.unknown.range.unit), u.remark.empty() ? "" : " (" + u.remark + ")");
     }
     double worst = 0;
-    for (const ChannelResidual& r : study_.residuals) worst = std::max(worst, r.range_part.value_or(0));
-    study_.conclusion += fmt::format("; the residual is {:.2g} % of the measured range at most", 100 * worst);
+    bool of_points = false;
+    for (const ChannelResidual& r : study_.residuals)
+      worst = std::max(worst, r.range_part.value_or(0)), of_points = of_points || r.of == "points";
+    study_.conclusion += fmt::format("; {}the residual is {:.2g} % of the {} at most", orders_compared(), 100 * worst,
+                                     of_points ? "measured range" : "greatest measured amplitude");
     if (study_.chi_squared > 0)
       study_.conclusion += study_.chi_squared > 2 ? fmt::format(
                                                         ", {:.2g} times what the scatter of cycles explains: the "
@@ -357,6 +371,12 @@ class FitWork {
 };
 
 }  // namespace
+
+std::string list_of_orders(std::vector<double> orders) {
+  std::sort(orders.begin(), orders.end());
+  orders.erase(std::unique(orders.begin(), orders.end()), orders.end());
+  return fmt::format("{:.4g}", fmt::join(orders, ", "));
+}
 
 std::vector<double> reported_orders(const RecordRequest& request, const FitRecord& record) {
   if (!request.orders.empty()) return request.orders;

@@ -92,6 +92,7 @@ struct Curve95 {
   std::string record, channel, unit;
   Over over = Over::angle;
   std::vector<double> at, measured, shown, low = {}, high = {};  // measured empty: not known
+  std::vector<double> orders = {};                               // that were compared; empty: all points
 };
 
 struct Prediction {
@@ -143,6 +144,9 @@ void predict(FitProblem& problem, const FitOptions& options, const FitState& sta
 
 // The orders reported for records over the angle: those compared, otherwise the first eight of the cycle.
 std::vector<double> reported_orders(const RecordRequest& request, const FitRecord& record);
+
+// "0.5, 1.5, 2.5": each once, ascending.
+std::string list_of_orders(std::vector<double> orders);
 
 Findings findings_of(const FitStudy& study);
 

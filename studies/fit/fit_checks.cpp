@@ -98,8 +98,7 @@ void try_off_effects(FitProblem& problem, const FitState& state, FitStudy& study
   std::stable_sort(study.effects.begin(), study.effects.end(), [](const EffectTried& a, const EffectTried& b) {
     return (a.failed.empty() ? a.reduction : -HUGE_VAL) > (b.failed.empty() ? b.reduction : -HUGE_VAL);
   });
-  if (study.effects.empty())
-    study.notes.push_back("no effect is off that the scenes have data for: none was tried to explain the residual");
+  if (study.effects.empty()) study.notes.push_back("no trial: the scenes have no data for a further effect");
   constexpr double worth_saying = 0.05;
   if (!study.effects.empty() && study.effects.front().failed.empty() && study.effects.front().reduction > worth_saying)
     study.notes.push_back(fmt::format("{}, which is off, would take {:.2g} % off the sum of squares that is left",

@@ -224,6 +224,9 @@ std::vector<Plot> overlays(const FitStudy& s, const std::vector<Curve95>& curves
     std::vector<double> difference;
     for (std::size_t i = 0; i < c.shown.size(); ++i) difference.push_back(c.measured[i] - c.shown[i]);
     left.series = {line_of(s, c, "measured − fitted", Role::vermillion, difference)};
+    if (!c.orders.empty())
+      left.note =
+          fmt::format("It contains the orders that were not compared; compared were {}.", list_of_orders(c.orders));
     plots.push_back(std::move(left));
   }
   return plots;

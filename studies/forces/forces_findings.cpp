@@ -29,22 +29,21 @@ Findings begin_findings(const Forces& f, const ForceCycle& front, const std::str
   to.page_title = fmt::format("{}: forces in {}", f.title, f.mechanism);
   to.speed_unit = f.speed_unit.name, to.footer = report_footer();
   to.conclude(f.complete, conclusion);
-  if (f.complete) to.conclude(true, capitalised(front.description));
   for (const std::string& sentence : f.outside_data) to.claim(Predicate::outside_data, sentence);
   to.record("mechanism", f.mechanism);
   return to;
 }
 
-// "press at 60 rpm: the main bearing carries up to 10.45 kN (at 90.0°)", or that reactions have no bound.
+// "press at 60 rpm: the main bearing (frame on crank) carries up to 10.45 kN (at 90.0°)", or that reactions have no bound.
 std::string begin_conclusion(const Forces& f, const ForceCycle& front) {
   const double range = front.greatest_speed.value - front.least_speed.value;
   const std::string moving = fmt::format("{} at {}{}", f.mechanism, f.speed_unit.text(front.mean_speed.value, 4),
                                          range > 1e-4 * std::abs(front.mean_speed.value) ? " on average" : "");
   if (f.unbounded.any()) return begin_unbounded(moving, f.unbounded);
   if (front.reactions.empty()) return moving + ": reactions in its joints are not assessed";
-  const Peak& main_bearing = front.reactions.front().peak;
-  return fmt::format("{}: the main bearing carries up to {} (at {})", moving, in_words(main_bearing, "N"),
-                     at_angle(main_bearing));
+  const NamedPeak& first = front.reactions.front();
+  return fmt::format("{}: {} carries up to {} (at {})", moving, joint_in_words(first.name), in_words(first.peak, "N"),
+                     at_angle(first.peak));
 }
 
 std::string torque_in_words(const ForceCycle& c) {
@@ -68,8 +67,8 @@ std::string conclusion_of(const Forces& f) {
   const NamedPeak* const most = heaviest(c);
   std::string text = begin_conclusion(f, c);
   if (most && most != &c.reactions.front() && !f.unbounded.any() && !f.balancing)
-    text += fmt::format(", the heaviest load of a joint is {} ({}, at {})", in_words(most->peak, "N"), most->name,
-                        at_angle(most->peak));
+    text += fmt::format(", the heaviest load of a joint is {} on {}, at {}", in_words(most->peak, "N"),
+                        joint_in_words(most->name), at_angle(most->peak));
   text += ", " + torque_in_words(c);
   if (!is_nothing(c.shaking_force))
     text += fmt::format(", the shaking force peaks at {}", in_words(c.shaking_force, "N"));
@@ -121,7 +120,8 @@ std::string checks_of(const ForceCycle& c) {
 
 KeyFigure key_figure(const NamedPeak& p) {
   const Estimate most{p.peak.reported(), p.peak.error};
-  return {most, "largest " + p.name, p.unit, fmt::format("at φ = {}", at_angle(p.peak)), 0, p.means};
+  const std::string name = (p.name.find(": ") != std::string::npos ? "largest reaction, " : "largest ") + p.name;
+  return {most, name, p.unit, fmt::format("at φ = {}", at_angle(p.peak)), 0, p.means};
 }
 
 RowsOf<std::size_t> peak_table(const Forces& f) {
@@ -188,9 +188,10 @@ Rows position_table(const Forces& f, const ForceCycle& c) {
       .only_for_people("ω [rad/s]", [](P p) { return p.forces.state.omega; })
       .only_for_people("M [N·m]", [&, or_nothing](P p) { return or_nothing(p.forces.torque, c.torque.value); });
   const double largest = c.reactions.empty() ? c.shaking_force.value : heaviest(c)->peak.value;
-  for (std::size_t k = 0; k < c.rows.front().forces.joints.size(); ++k) {
-    const JointForces& j = c.rows.front().forces.joints[k];
-    table.only_for_people(fmt::format("{} [N]", j.name),
+  const std::vector<JointForces>& joints = c.rows.front().forces.joints;
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    const JointForces& j = joints[k];
+    table.only_for_people(heading_of(joints, j) + " [N]",
                           [k, largest, or_nothing](P p) { return or_nothing(force_of(p.forces.joints[k]), largest); });
     if (j.slides && is_given(f, j))
       table.only_for_people("at [mm]", [k](P p) { return p.forces.joints[k].point(); }, {.factor = 1e3, .digits = 4});
@@ -426,10 +427,11 @@ Findings findings_of(const Forces& f) {
   to.draw(reactions, [&f] { return reaction_plots(f); });
   to.show(reactions, Text{.title = "Signs and axes", .body = signs_of(f)});
   if (!front.reactions.empty())
-    to.show(polar,
-            Text{.title = "",
-                 .body = "Tips of the load over a cycle. In the frame it shows where shell and housing are pressed; in "
-                         "axes of a link, where its pin or bore is: that is where an oil hole must not be."});
+    to.show(
+        polar,
+        Text{.title = "",
+             .body = "The curve joins the tips of the load vector. It shows where shell and housing are pressed or, "
+                     "in axes of a link, its pin or bore; no oil hole belongs where it presses."});
   to.draw(polar, [&f] { return polar_plots(f); });
   say_positions(to, positions, f);
   say_work(to, work, f);

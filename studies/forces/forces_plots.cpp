@@ -142,8 +142,9 @@ std::vector<Plot> reaction_plots(const Forces& f) {
                                j.slides ? "normal force" : "force", "N",
                                [k](P p) { return force_of(p.forces.joints[k]); }));
     if (!j.slides) continue;
-    plots.push_back(
-        over_angle(f, what + ", about the pin", "moment", "N*m", [k](P p) { return p.forces.joints[k].moment; }));
+    Plot moment =
+        over_angle(f, what + ", about the pin", "moment", "N*m", [k](P p) { return p.forces.joints[k].moment; });
+    if (largest_of(moment) > 0) plots.push_back(std::move(moment));
     for (const RubbingJoint& given : f.joints.joints)
       if (given.name == j.name) plots.push_back(point_plot(f, k, given));
   }

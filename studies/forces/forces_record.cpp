@@ -1,6 +1,8 @@
 // forces_record.cpp — forces of a cycle for programs and for files; those of a slider-crank by the names of its joints, too.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "studies/forces/forces_findings.h"
 
 namespace kurbel {
@@ -95,6 +97,19 @@ List order_list(const std::vector<ForceHarmonic>& orders) {
 }
 
 }  // namespace
+
+std::string heading_of(const std::vector<JointForces>& joints, const JointForces& j) {
+  const std::string name(j.name);
+  const auto alike = std::count_if(joints.begin(), joints.end(), [&](const JointForces& o) { return name == o.name; });
+  return alike > 1 ? fmt::format("{}: {} on {}", name, j.from, j.on) : name;
+}
+
+std::string joint_in_words(const std::string& reaction) {
+  const std::string article = reaction.starts_with("pin ") ? "" : "the ";
+  const std::size_t colon = reaction.find(": ");
+  if (colon == std::string::npos) return article + reaction;
+  return fmt::format("{}{} ({})", article, reaction.substr(0, colon), reaction.substr(colon + 2));
+}
 
 Record cycle_record(const Forces& study, const ForceCycle& c) {
   Record r = {

@@ -131,9 +131,10 @@ Findings findings_of(const WormPair& w, std::optional<double> speed) {
       .symbols = "η = tan γ/tan(γ + ρ′),   η′ = tan(γ − ρ′)/tan γ,   tan γ = z₁ m/d₁,   tan ρ′ = μ/cos α_n",
       .numbers = fmt::format("γ = {:.4f}°, ρ′ = {:.4f}°:   η = {:.5f},   η′ = {:.5f}", w.lead_angle() / degree,
                              w.friction_angle() / degree, w.efficiency(), w.efficiency_back())};
+  const char* const ideal = w.friction == 0 ? " without friction (--friction gives some)" : "";
   Findings f =
-      made(fmt::format("Worm pair {}/{}: γ = {:.3f}°, ρ′ = {:.3f}°, η = {:.4f} with the worm driving; the wheel {}.",
-                       w.starts, w.teeth, w.lead_angle() / degree, w.friction_angle() / degree, w.efficiency(),
+      made(fmt::format("Worm pair {}/{}: γ = {:.3f}°, ρ′ = {:.3f}°, η = {:.4f}{} with the worm driving; the wheel {}.",
+                       w.starts, w.teeth, w.lead_angle() / degree, w.friction_angle() / degree, w.efficiency(), ideal,
                        w.self_locking() ? "cannot drive: self-locking (γ ≤ ρ′)"
                                         : fmt::format("can drive with η′ = {:.4f}", w.efficiency_back())),
            q.rows(), efficiency);

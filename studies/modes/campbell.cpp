@@ -116,12 +116,27 @@ std::optional<Series> ray(const ModesStudy& m, const ExcitationLine& line, doubl
   return s;
 }
 
-// "6×: 4 × cylinder"
+// "Sources: cylinder (4 alike): 2×, 4×; compressor: 1×. "
 std::string legend_of(const std::vector<const ExcitationLine*>& lines) {
+  std::vector<std::pair<std::string, std::string>> by_source;
+  for (const ExcitationLine* line : lines) {
+    if (line->source.empty() || line->source == "every shaft") continue;
+    const auto same = std::find_if(by_source.begin(), by_source.end(),
+                                   [&](const auto& source) { return source.first == line->source; });
+    if (same == by_source.end())
+      by_source.emplace_back(line->source, line->label);
+    else
+      same->second += ", " + line->label;
+  }
   std::string text;
-  for (const ExcitationLine* line : lines)
-    if (!line->source.empty() && line->source != "every shaft")
-      text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", line->label, line->source);
+  for (const auto& [source, labels] : by_source) {
+    const std::string times = " × ";  // "4 × cylinder" beside "2×" would read as twice the speed
+    const std::size_t at = source.find(times);
+    const std::string of = at == std::string::npos
+                               ? source
+                               : fmt::format("{} ({} alike)", source.substr(at + times.size()), source.substr(0, at));
+    text += fmt::format("{}{}: {}", text.empty() ? "Sources: " : "; ", of, labels);
+  }
   return text.empty() ? "" : text + ". ";
 }
 
@@ -284,10 +299,14 @@ Plot campbell_plot(const ModesStudy& m) {
       plot.note += fmt::format("{} lies above the diagram. ", capitalised(line->label));
   }
   plot.note += legend_of(lines);
+  std::string shifted;
   std::size_t named = 0;
   for (const Mode& mode : m.modes) {
     const double f = hertz(frequency_of_resonance(m.drive, mode));
     if (f > top || named >= modes_named) continue;
+    if (const std::string why = why_shifted(m, mode, 2 * std::numbers::pi * f); !why.empty())
+      shifted += fmt::format("Mode {} is drawn where it resonates, at |λ| = {:.4g} Hz{} from {:.4g} Hz. ", mode.number,
+                             f, why, hertz(mode.omega));
     plot.series.push_back({.name = fmt::format("mode {}: {}", mode.number, name_of(m, mode)),
                            .role = further_role(named++),
                            .x = {m.speed_unit.of(m.slowest), m.speed_unit.of(m.fastest)},
@@ -297,7 +316,7 @@ Plot campbell_plot(const ModesStudy& m) {
   if (std::any_of(plot.series.begin(), plot.series.end(), [](const Series& s) { return s.dashed; }))
     plot.note += "Dotted: frequencies, converters and tooth meshes. ";
   for (Series& met : meetings(m, lines, top)) plot.series.push_back(std::move(met));
-  plot.note += modes_above(m, top);
+  plot.note += shifted + modes_above(m, top);
   for (const ParametricZone& z : m.zones)
     if (z.half_width > 0) plot.marks.push_back({m.speed_unit.of(z.centre), fmt::format("parametric, mode {}", z.mode)});
   return plot;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/scene/text.h"
+#include "studies/findings/figure_text.h"
 #include "studies/modes/drive_limits.h"
 #include "studies/modes/modes_plots.h"
 
@@ -14,14 +15,15 @@ namespace {
 
 constexpr double of_weight = 0.1;  // share of a mode's energy that makes its nature
 
+constexpr double much = 0.005;  // of a frequency
+
 // With its damping; and its damped frequency if damping and internal states change the frequency much.
-std::string first_mode(const Mode& mode) {
-  constexpr double much = 0.005;
+std::string first_mode(const ModesStudy& m, const Mode& mode) {
   std::string text = fmt::format("First mode at {:.6g} Hz", hertz(mode.omega));
   if (!(mode.lambda.imag() > 0)) return text + " undamped (it does not oscillate: ζ ≥ 1)";
   text += fmt::format(" (ζ = {:.3g}", mode.ratio);
   if (std::abs(mode.lambda.imag() - mode.omega) > much * mode.omega)
-    text += fmt::format("; damped {:.4g} Hz", hertz(mode.lambda.imag()));
+    text += fmt::format("; damped {:.4g} Hz{}", hertz(mode.lambda.imag()), why_shifted(m, mode, mode.lambda.imag()));
   return text + ")";
 }
 
@@ -48,6 +50,9 @@ std::size_t most_loaded_joint(const ModesStudy& m, const SpeedResponse& said) {
   return joint;
 }
 
+// The headline has four digits: of five they would be rounded a second time.
+std::string rounded_once(double torque) { return std::isfinite(torque) ? short_text(torque, "N*m") : "unbounded"; }
+
 // "at 1500 rpm the torque in "coupling" oscillates by ± 9.893 N·m about 153.9 N·m"
 std::string amplitude_at_that_speed(const ModesStudy& m) {
   const SpeedResponse& said = m.cycle ? *m.cycle : m.here;
@@ -55,11 +60,11 @@ std::string amplitude_at_that_speed(const ModesStudy& m) {
   const JointResponse& joint = said.joints[j];
   std::string text =
       fmt::format("at {} the torque in \"{}\" oscillates by ± {}", m.speed_unit.text(std::abs(m.drive.at.speed), 5),
-                  m.joint_names[j], torque_text(joint.peak));
-  if (std::abs(joint.mean) > 1e-6 * joint.peak) text += " about " + torque_text(joint.mean);
+                  m.joint_names[j], rounded_once(joint.peak));
+  if (std::abs(joint.mean) > 1e-6 * joint.peak) text += " about " + rounded_once(joint.mean);
   const double linear = m.here.joints[j].peak;
   if (m.cycle && std::abs(linear - joint.peak) > 0.1 * joint.peak)
-    text += fmt::format(" (linear model: {}, {:+.0f} %)", torque_text(linear), 100 * (linear / joint.peak - 1));
+    text += fmt::format(" (linear model: {}, {:+.0f} %)", rounded_once(linear), 100 * (linear / joint.peak - 1));
   return text;
 }
 
@@ -104,6 +109,16 @@ std::string energy_text(const ModesStudy& m, const Mode& mode) {
   return text.empty() ? "—" : text;
 }
 
+std::string why_shifted(const ModesStudy& m, const Mode& mode, double f) {
+  const double lambda = mode.magnitude(), by_damping = f == mode.lambda.imag() ? f / lambda : 1;
+  if (std::abs(lambda - mode.omega) <= much * mode.omega || std::abs(f - mode.omega * by_damping) <= much * mode.omega)
+    return "";
+  for (const EnergyStore& store : energy_stores(m, mode))
+    if (!store.name.starts_with("springs") && store.name != "inertias" && store.share > 0)
+      return fmt::format(", {} by the {}", f > mode.omega ? "raised" : "lowered", store.name);
+  return "";
+}
+
 std::string nature_of(const ModesStudy& m, const Mode& mode) {
   double share[3] = {};
   for (const EnergyStore& store : energy_stores(m, mode)) share[static_cast<int>(store.kind)] += store.share;
@@ -124,7 +139,7 @@ std::string conclusion_of(const ModesStudy& m) {
   if (natural == 0) {
     text = m.rests_at ? "The machine does not oscillate " + rest : "The drive has no mode with twist";
   } else {
-    text = first_mode(m.modes.front());
+    text = first_mode(m, m.modes.front());
     if (m.rests_at) text += ", " + rest;
     if (natural > 1) text += fmt::format(", second at {:.6g} Hz", hertz(m.modes[1].omega));
   }

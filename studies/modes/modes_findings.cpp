@@ -111,9 +111,6 @@ Rows mode_table(const ModesStudy& m) {
   if (std::any_of(m.modes.begin(), m.modes.end(),
                   [](const Mode& mode) { return mode.energy.in_internal_states() > 0.01; }))
     table.only_for_people("energy of the damped mode", [&](const Mode& mode) { return energy_text(m, mode); });
-  if (std::any_of(m.modes.begin(), m.modes.end(),
-                  [](const Mode& mode) { return std::abs(mode.magnitude() - mode.omega) > 1e-6 * mode.omega; }))
-    table.only_for_people("|λ| [Hz]", [](const Mode& mode) { return frequency_text(mode, mode.magnitude()); });
   table.only_for_people("numerical error [Hz]", error_text);
   if (std::any_of(m.modes.begin(), m.modes.end(), [](const Mode& mode) { return mode.least < mode.greatest; }))
     table.only_for_people("held at angles [Hz]", [](const Mode& mode) {

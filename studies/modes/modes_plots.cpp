@@ -124,19 +124,29 @@ Plot sweep_plot(const ModesStudy& m, std::size_t j) {
         name, role, finite, [&m](const SpeedResponse* s) { return m.speed_unit.of(s->speed); },
         [&](const SpeedResponse* s) { return value(s->joints[j]); });
   };
-  Plot plot{
-      .title = fmt::format("Alternating torque in {} over the speed", m.joint_names[j]),
-      .x = {"speed of " + m.link, m.speed_unit.name},
-      .y = {"torque", ""},
-      .series = {
-          curve("peak of the sum of orders", Role::elastic, [](const JointResponse& r) { return r.peak; }),
-          dashed(curve("sum of amplitudes", Role::sky, [](const JointResponse& r) { return r.amplitude_sum; })),
-          dashed(curve("mean torque", Role::reference, [](const JointResponse& r) { return std::abs(r.mean); }))}};
+  Plot plot{.title = fmt::format("Alternating torque in {} over the speed", m.joint_names[j]),
+            .x = {"speed of " + m.link, m.speed_unit.name},
+            .y = {"torque", ""},
+            .series = {
+                curve("peak of the sum of orders", Role::elastic, [](const JointResponse& r) { return r.peak; }),
+                dashed(curve("sum of amplitudes", Role::sky, [](const JointResponse& r) { return r.amplitude_sum; }))}};
+  // A mean far above would press the curves down.
+  constexpr double far = 1.5;
+  const double sum = largest_of(plot);
+  Series mean = dashed(curve("mean torque", Role::reference, [](const JointResponse& r) { return std::abs(r.mean); }));
+  const double most = mean.y.empty() ? 0 : *std::max_element(mean.y.begin(), mean.y.end());
+  if (most <= far * sum)
+    plot.series.push_back(std::move(mean));
+  else
+    plot.note = fmt::format("The mean torque, up to {}, lies above.", torque_text(most));
   if (!m.rigid.empty()) plot.series.insert(plot.series.begin(), rigid_curve(m, j));
   mark_spots(m, j, plot);
-  if (const DriveLimits& limits = m.limited[j].limits; limits.vibratory > 0)
-    plot.series.push_back(
-        dashed(level(m, "allowed at 10 Hz", Role::vermillion, limits.vibratory / limits.temperature_factor)));
+  if (const DriveLimits& limits = m.limited[j].limits; limits.vibratory > 0 && !finite.empty()) {
+    const double allowed = limits.vibratory / limits.temperature_factor;
+    Series line = dashed(level(m, "allowed at 10 Hz", Role::vermillion, allowed));
+    line.x = {m.speed_unit.of(finite.front()->speed), m.speed_unit.of(finite.back()->speed)};
+    plot.series.push_back(std::move(line));
+  }
   for (const BarredRange& b : m.barred) {
     if (b.joint != j) continue;
     plot.bands.push_back({m.speed_unit.of(b.from), m.speed_unit.of(b.to), "barred", Role::vermillion});

@@ -53,7 +53,7 @@
   const wayBack = x => x.reduce((sum, value, i) => sum + (i ? Math.max(x[i - 1] - value, 0) : 0), 0);
   const isLocus = plot => plot.equalAxes || plot.series.some(s => s.labels || wayBack(s.x) > 0.2 * Math.abs(s.x[s.x.length - 1] - s.x[0]));
 
-  const plain = text => text.replace(/[<&]/g, '').replace(/\n/g, '<br>');
+  const plain = text => text.replace(/&/g, '&amp;').replace(/</g, '&lt;').replace(/\n/g, '<br>');
   const saysItself = s => s.textAtStart || s.textAtEnd;
 
   function tracesOf(plot) {
@@ -214,7 +214,7 @@
     if (plot.x.names) {
       const beside = (plot.y.names || []).flatMap(name => shortName(name).split('\n')).map(line => 6.5 * line.length - 50);
       const room = (widthOf(plot) - Math.max(0, ...beside)) / plot.x.names.length / 7, text = plot.x.names.map(name => inLines(shortName(name), room));
-      return {...given, ...(text.every(Boolean) ? {...placesOf(plot.x.names, text), tickangle: 0} : {...placesOf(plot.x.names), tickangle: -35})};
+      return {...given, ...(text.every(Boolean) ? {...placesOf(plot.x.names, text), tickangle: 0} : {...placesOf(plot.x.names), tickangle: narrow() ? -90 : -35})};
     }
     if (given.range) return given;
     // A closed curve does not touch the frame.
@@ -401,7 +401,8 @@
       save.click();
       setTimeout(() => URL.revokeObjectURL(url), 10000);
     };
-    const place = make('div', 'plot' + (plot.wide ? ' tall' : ''), null, card);
+    const place = make('div', 'plot' + (plot.wide || narrow() && plot.bars && plot.x.names ? ' tall' : ''), null, card);
+    if (plot.equalAxes) card.classList.add('polar');
     for (const [text, hint, act] of [
       ['picture', 'as PNG', () => Plotly.downloadImage(place, {format: 'png', width: 1400, height: plot.wide ? 700 : 600, filename: plot.title.replace(/[^\w\u00c0-\uffff]+/g, '_')})],
       ['whole', 'undo zooming', () => drawPlot(entry)],
@@ -419,7 +420,8 @@
       const list = make('div', 'legend', null, card);
       for (const s of named) make('span', 'is-' + s.role, s.textAtStart, list);
     }
-    if (plot.note) make('p', 'note', plot.note, card);
+    const note = plot.note ? make('p', 'note', plot.note, card) : null;
+    if (note && plot.marks.length) make('span', 'on-screen', ' Point at one to read it.', note);
     plots.push(entry);
   }
   function drawPlot(entry) {
@@ -489,11 +491,13 @@
   }
   function addTable(table, card) {
     const scroll = make('div', 'scroll', null, fold(card, table.title, table.folded));
-    const element = make('table', '', null, scroll);
+    const element = make('table', table.columns.length > 9 ? 'dense' : '', null, scroll);
     const head = make('tr', '', null, make('thead', '', null, element));
-    // Sentences are read from the left, wherever they stand.
-    const inWords = table.columns.map((_, i) => i < table.textColumns || table.rows.some(row => row[i].length > 30 || /\p{L}{3,} \p{L}{3,}/u.test(row[i])));
-    const kind = column => inWords[column] ? 'text' : '';
+    // Sentences are read from the left, wherever they stand, and so are names; a column is what more than half of it is.
+    const mostly = (column, is) => { const filled = table.rows.map(row => row[column]).filter(text => text && text !== '—'); return 2 * filled.filter(is).length > filled.length; };
+    const isSentence = text => text.length > 30 || /\p{L}{3,} \p{L}{3,}/u.test(text), isName = text => /^[\p{L}“"]{2}/u.test(text) && !/^(no|not) |^unbounded|^locks|^less than/.test(text);
+    const kinds = table.columns.map((_, i) => i < table.textColumns || mostly(i, isSentence) ? 'text' : mostly(i, isName) ? 'name' : '');
+    const kind = column => kinds[column];
     table.columns.forEach((text, i) => write(text, make('th', kind(i), '', head), true));
     const body = make('tbody', '', null, element), printed = table.rows.length > 100 ? 60 : Infinity;
     if (table.rows.length > printed) make('p', 'note on-paper', `The first ${printed} of ${table.rows.length} rows; the page has all.`, card);
@@ -501,7 +505,7 @@
       const line = make('tr', r < printed ? '' : 'off-paper', null, body);
       row.forEach((text, i) => {
         const tone = table.tones ? table.tones[r][i] : '';
-        const cell = make('td', [kind(i), /^[-±+−]? ?\d[^ ]*( ± \d[^ ]*)?( %)?$/.test(text) && 'number', text.length > (kind(i) ? 34 : 22) && 'words', tone && 'tone ' + tone].filter(Boolean).join(' '), '', line);
+        const cell = make('td', [kind(i), /^[-±+−]? ?\d[^ ]*( ± \d[^ ]*)?( %)?$/.test(text) && 'number', text.length > (kind(i) === 'text' ? 34 : 22) && 'words', tone && 'tone ' + tone].filter(Boolean).join(' '), '', line);
         const place = i === 0 && table.means && table.means[r] ? meaningOf(table.means[r], cell) : cell;
         write(text, place, kind(i));
       });
@@ -667,7 +671,9 @@
     for (const svg of linkages) {
       svg.style.setProperty('--tall', `${beside ? 460 : most}px`);
       const {width, height} = svg.viewBox.baseVal, scale = beside ? high / height : Math.min(room / columns / width, most / height);
-      svg.style.setProperty('--words', `${Math.min(13 / scale, 22).toFixed(1)}px`);
+      const size = Math.min(13 / scale, 22);
+      svg.style.setProperty('--words', `${size.toFixed(1)}px`);
+      svg.raise(size);
     }
     const words = Math.min(13 / Math.min(beside ? high / box.height : room / box.width, parseFloat(line.svg.style.maxHeight) / box.height), 24);
     // On paper some 650 pixels wide, whatever the window.
@@ -730,7 +736,8 @@
       for (const k of [-1.5, -.5, .5, 1.5]) { body(svg, x + 21 * k, y - 36, 14, 30, 'dial', 2); body(svg, x + 21 * k, y - 30 + 5 * (Math.round(k * 2 + 5) % 3 - 1), 13, 9, 'shaft', 1); }
       return 94;
     },
-    load(svg, x, y) {  // blades
+    load(svg, x, y, p) {  // blades of what moves a fluid; else a disc
+      if (!/fan|pump|blower|propeller|impeller|screw|turbine|ventilator/i.test(p.name)) { body(svg, x, y, 22, 76, 'body', 4); return 22; }
       body(svg, x, y, 18, 44);
       for (const s of [-1, 1]) draw('path', {d: `M${x - 8},${y + 22 * s} q-7,${20 * s} 8,${26 * s} q15,${-6 * s} 8,${-26 * s} Z`, class: 'body'}, svg);
       return 26;
@@ -1060,11 +1067,17 @@
       draw('polygon', {points: `${x},${y} ${x - 9},${y + 14} ${x + 9},${y + 14}`, class: 'body'}, svg);
     }
     const round = Math.pow(10, Math.floor(Math.log10(70 / scale))), bar = round * (70 / scale / round >= 5 ? 5 : 70 / scale / round >= 2 ? 2 : 1);
-    draw('line', {x1: 10, x2: 10 + bar * scale, y1: 14, y2: 14, stroke: 'var(--soft)', 'stroke-width': 2}, svg);
-    draw('text', {x: 10, y: 19, dy: '.85em', class: 'soft'}, svg, `${+(bar * 1000).toPrecision(3)} mm`);
-    if (g.name) draw('text', {x: 10, y: 19, dy: '2em', class: 'soft'}, svg, g.name + (g.turned ? ', turned by 90°' : ''));
-
-    if (bent) draw('text', {x: 10, y: 19, dy: g.name ? '3.15em' : '2em', class: 'soft'}, svg, `rod bent × ${+g.bendEnlargement.toPrecision(3)}`);
+    const captions = draw('g', {}, svg), said = [`${+(bar * 1000).toPrecision(3)} mm`];
+    draw('line', {x1: 10, x2: 10 + bar * scale, y1: 14, y2: 14, stroke: 'var(--soft)', 'stroke-width': 2}, captions);
+    if (g.name) said.push(g.name + (g.turned ? ', turned by 90°' : ''));
+    if (bent) said.push(`rod bent × ${+g.bendEnlargement.toPrecision(3)}`);
+    said.forEach((line, k) => draw('text', {x: 10, y: 19, dy: `${0.85 + 1.15 * k}em`, class: 'soft'}, captions, line));
+    // Of large words the captions rise until they end above the mechanism.
+    svg.raise = words => {
+      const up = Math.max(0, 19 + (1.15 * said.length + 0.1) * 0.92 * words - top);
+      place(captions, {transform: `translate(0 ${-up})`});
+      svg.setAttribute('viewBox', `0 ${-up} ${W} ${H + up}`);
+    };
     // A journal in its bearing for each gap, which is drawn as wide as a third of the bearing.
     const gaps = g.gaps.map((gap, k) => {
       const x = W - 76 - 150 * k, y = 42, wide = 12, R = 36;
@@ -1121,8 +1134,15 @@
     const main = linkage(svg, false);
     const largest = own.reduce((a, b) => Math.max(a, Math.abs(b)), 1e-12);
     const group = draw('g', {}, svg), arrow = draw('path', {class: 'arrow', 'stroke-width': 4, fill: 'none'}, group), head = draw('polygon', {class: 'head'}, group);
-    const onLeft = X(g.x[end][0], g.y[end][0]) > 0.6 * W;  // the figure stands where the arrow does not
-    const text = draw('text', {class: 'load', x: onLeft ? 6 : W - 6, y: H - 8, 'text-anchor': onLeft ? 'start' : 'end'}, group);
+    const text = draw('text', {class: 'load', 'text-anchor': 'middle'}, group);
+    // Beside the arrow's tail, away from its head, and within the view.
+    function writeAt(tail, head) {
+      const words = parseFloat(svg.style.getPropertyValue('--words')) || 13, half = 0.31 * words * text.textContent.length;
+      const d = Math.hypot(tail[0] - head[0], tail[1] - head[1]) || 1, [u, v] = [0, 1].map(k => (tail[k] - head[k]) / d);
+      const wanted = tail[0] + u * (half + 8), x = Math.min(Math.max(wanted, half + 4), W - half - 4), moved = Math.abs(x - wanted) > 4;
+      const y = tail[1] + v * (0.6 * words + 6) + 0.35 * words - (moved && Math.abs(u) > 0.7 ? 0.8 * words + 8 : 0);
+      place(text, {x, y: Math.min(Math.max(y, words), H - 4)});
+    }
     return {svg, update};
     function update(at, loads) {
       const points = main(crankAngle(m, g, front, at), bent ? g.bendEnlargement * at(bends) : 0);
@@ -1138,11 +1158,13 @@
         const length = (0.6 * room - point) * Math.abs(force) / largest, from = force < 0 ? face + point + length : face, to = force < 0 ? face + point : face + length;
         place(arrow, {d: `M${at2(from, y)} L${at2(to, y)}`});
         drawArrowHead(arrow, head, X(to, y), Y(to, y), g.direction + (force < 0 ? Math.PI : 0), 9);
+        writeAt([X(from, y), Y(from, y)], [X(to, y), Y(to, y)]);
       } else {
         // About the rocker's bearing.
         const [u, v] = points[end], x = X(u, v), y = Y(u, v), R = 30, turn = 2.6 * force / largest, start = Math.PI / 2 - turn / 2, stop = start + turn;
         place(arrow, {d: `M${x + R * Math.cos(start)},${y - R * Math.sin(start)} A${R},${R} 0 0 ${turn > 0 ? 0 : 1} ${x + R * Math.cos(stop)},${y - R * Math.sin(stop)}`});
         drawArrowHead(arrow, head, x + R * Math.cos(stop), y - R * Math.sin(stop), stop + (turn > 0 ? 1 : -1) * Math.PI / 2, Math.abs(turn) < 0.08 ? 0 : 8);
+        writeAt([x, y - R], [x, y]);
       }
     }
   }
@@ -1219,11 +1241,16 @@
     const ends = g.points.map(p => p.place), reach = Math.max(...ends.map(Math.abs), g.closeUp * 0.9);
     span(-reach, reach, {'stroke-width': 1});
     span(g.start, g.end, {'stroke-width': 3.5});
-    if (close) for (const p of g.points) {
+    // A name that would touch the one before it on its side stands on the other.
+    const beside = {start: -Infinity, end: -Infinity};
+    if (close) for (const p of [...g.points].sort((a, b) => a.place - b.place)) {
       const [x, y] = at(p.place);
       if (Math.abs(p.place) > 1.15 * g.closeUp) continue;
       draw('circle', {cx: x, cy: y, r: 2.2 * px, fill: 'var(--elastic)'}, svg);
-      draw('text', {x: x + 7 * px, y: y + 4 * px, style: `font-size: ${15 * px}px; font-weight: 600`}, svg, p.name);
+      const isFree = side => 1e3 * p.place - beside[side] > 17 * px;
+      const side = isFree('start') || beside.start < beside.end ? 'start' : 'end';
+      beside[side] = 1e3 * p.place;
+      draw('text', {x: x + (side === 'start' ? 7 : -7) * px, y: y + 4 * px, 'text-anchor': side, style: `font-size: ${15 * px}px; font-weight: 600`}, svg, p.name);
     }
     const most = Math.ceil((g.end - g.start) / g.basePitch) + 1;
     const contacts = Array.from({length: most}, () => draw('circle', {r: (close ? 5 : 4) * px, fill: 'var(--vermillion)'}, svg));

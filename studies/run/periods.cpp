@@ -140,9 +140,9 @@ void judge_steadiness(const Model& model, const DrivenTime& d, double tolerance,
   else if (*approach.remaining > scale)
     periods.verdict = fmt::format("the {} speed is still to change by more than itself", speed);
   else
-    periods.verdict =
-        fmt::format("the {} speed is {}within {:.3g} % of its limit", speed, periods.steady ? "" : "only ",
-                    100 * std::max(*approach.remaining / scale, least_reported));
+    periods.verdict = fmt::format("the {} speed is {} {:.3g} % {}", speed, periods.steady ? "within" : "still",
+                                  100 * std::max(*approach.remaining / scale, least_reported),
+                                  periods.steady ? "of its limit" : "from its final value");
 }
 
 void find_run_up(const Model& model, const BandHistory& speed, const DrivenTime& d, double tolerance,

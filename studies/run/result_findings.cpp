@@ -272,7 +272,8 @@ void show_motion(Findings& f, const Results& results) {
   f.draw(f.chapter(""), [results] { return Cards{machine_view(results)}; });
   const bool over_angle =
       std::any_of(results.begin(), results.end(), [](const Result* r) { return !r->traces->last_cycles.empty(); });
-  const Chapter plots = f.chapter(over_angle ? "Over time and over the crank's angle" : "Over time");
+  const Chapter plots =
+      f.chapter(over_angle ? "Over time and over the " + angle_of_link(*results.back()) : std::string("Over time"));
   f.draw(plots, [results] { return motion_plots(results); });
   f.draw(f.chapter("What drives, slips and heats"), [results] { return drive_plots(results); });
   if (const std::size_t all = couplings(*results.back()).size(); all > most_torque_plots)

@@ -11,6 +11,7 @@
 #include "studies/answers/run_claims.h"
 #include "studies/claims/headline.h"
 #include "studies/findings/figure_text.h"
+#include "studies/findings/plots.h"
 #include "studies/limits/limits_findings.h"
 #include "studies/limits/ratings.h"
 
@@ -94,12 +95,20 @@ std::vector<ComparisonRow> rows_that_differ(const Comparison& c) {
   return rows;
 }
 
+// An elastic model has the torque lag of its motors without mention; beside a rigid one that has it, it is mentioned.
+std::string effects_in_words(const Comparison& c, const Result& r) {
+  constexpr const char* lag = "torque lag";
+  const bool both = c.in_both.find(lag) != std::string::npos, mentioned = r.effects.find(lag) != std::string::npos;
+  return both && !mentioned ? fmt::format("{}, with {}", r.effects, lag) : r.effects;
+}
+std::string models_in_words(const Comparison& c) {
+  return fmt::format("{} ({}) against {} ({})", c.a.label, effects_in_words(c, c.a), c.b.label,
+                     effects_in_words(c, c.b));
+}
+
 Brief brief_of(const Comparison& c) {
   const std::vector<ComparisonRow> rows = rows_that_differ(c);
-  Brief brief{
-      .about = fmt::format("{}: {} ({}) against {} ({})", c.title, c.a.label, c.a.effects, c.b.label, c.b.effects),
-      .figures = comparison_table(c, rows),
-      .notes = c.notes};
+  Brief brief{.about = c.title + ": " + models_in_words(c), .figures = comparison_table(c, rows), .notes = c.notes};
   for (const Result* r : {&c.a, &c.b})
     brief.words.push_back(r->errors_measured
                               ? fmt::format("{}: accuracy {:.1e} requested, {:.1e} measured; {}", r->label, r->accuracy,
@@ -212,8 +221,11 @@ std::vector<KeyFigure> key_figures_of(const Comparison& c) {
     const SpeedUnit speed = speed_unit_of(c.b);
     std::string note;
     if (other) {
-      const double factor = other->unit == "rad/s" ? speed.of(1) : 1;
-      note = fmt::format("{}: {}{}", c.a.label, with_error(factor * *other, ""),
+      // In the unit of the tile.
+      const ReadableUnit unit =
+          figure->unit == "rad/s" ? ReadableUnit{speed.name, speed.of(1)} : unit_on_tile(figure->value, figure->unit);
+      note = fmt::format("{}: {}{}{}", c.a.label, headline_number(unit.factor * other->value),
+                         unit.unit.empty() ? "" : " " + pretty_unit(unit.unit),
                          other->value != 0 ? fmt::format(" · ratio {:.3f}", figure->value / other->value) : "");
     }
     figures.push_back(key_of(*figure, note, speed));
@@ -273,7 +285,7 @@ Findings findings_of(const Result& r, const Result* rigid) {
 Findings findings_of(const Comparison& c) {
   const Results results = {&c.a, &c.b};
   Findings f{.title = c.title,
-             .subtitle = fmt::format("{} ({}) against {} ({})", c.a.label, c.a.effects, c.b.label, c.b.effects),
+             .subtitle = models_in_words(c),
              .speed_unit = speed_unit_of(c.b).name,
              .opening = Findings::Opening::title_and_conclusion,
              .reports_diagnosis = false,
@@ -308,7 +320,13 @@ Findings findings_of(const Comparison& c) {
   show_delta_formulas(f, figures, results);
   std::vector<std::string> lines = c.notes;
   for (const Result* r : results)
-    for (const std::string& note : r->notes) lines.push_back(r->label + ": " + note);
+    for (const std::string& note : r->notes) {
+      const auto same = std::find(lines.begin(), lines.end(), c.a.label + ": " + note);
+      if (r == &c.b && same != lines.end())
+        *same = note;  // of both models
+      else
+        lines.push_back(r->label + ": " + note);
+    }
   f.say(notes, Sentences{.lines = lines, .indent = "note: ", .key = "notes"});
   show_background(f, results);
   return f;

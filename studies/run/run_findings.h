@@ -43,6 +43,11 @@ std::string at_time(const Figure& figure);         // "at 1.23 s"; empty: at non
 const Figure* largest_peak(const Result& result);  // of torque in any coupling
 const Figure* first_of(const Result& result, const QuantityKind& what);
 
+// "crank angle", or "angle of motor" if the reduction link is no mechanism.
+std::string angle_of_link(const Result& result);
+// "slider of press", "rocker of lever"; of a linkage whose output is a point: "output of leg".
+std::string moved_by(const Model& model, const std::string& mechanism);
+
 // For cranks that cannot rotate fully.
 std::vector<std::string> notes_on_arcs(const Model& model);
 // The requested figures, in a sentence without a full stop.

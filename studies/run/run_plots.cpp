@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "mechanisms/reduced/mechanism.h"
@@ -77,10 +78,14 @@ std::optional<Plot> over_time(const Results& results, const std::string& channel
   return in_readable_unit(std::move(plot), si_unit, most, speed_unit_of(*results.back()));
 }
 
-// One quantity over the crank angle in the last whole cycle of each model.
+std::string link_of(const Result& r) {
+  return r.model->network.nodes[static_cast<std::size_t>(r.model->reduction_node)].component;
+}
+
+// Of the reduction link, in the last whole cycle of each model.
 std::optional<Plot> over_angle(const Results& results, const std::string& channel, const std::string& title,
                                const std::string& label) {
-  Plot plot{.title = title, .x = {"crank angle", "°"}, .y = {label, ""}};
+  Plot plot{.title = title, .x = {angle_of_link(*results.back()), "°"}, .y = {label, ""}};
   std::string si_unit;
   for (const Result* r : results) {
     if (r->traces->last_cycles.empty()) continue;
@@ -95,10 +100,6 @@ std::optional<Plot> over_angle(const Results& results, const std::string& channe
   }
   if (plot.series.empty()) return {};
   return in_readable_unit(std::move(plot), si_unit, speed_unit_of(*results.back()));
-}
-
-std::string link_of(const Result& r) {
-  return r.model->network.nodes[static_cast<std::size_t>(r.model->reduction_node)].component;
 }
 
 Plot energy_plot(const Result& r) {
@@ -250,7 +251,7 @@ std::string reported_figure(const Result& r, const std::string& name, const char
 
 // Explains the plot's marks, if there are any.
 void note_marks(Plot& plot) {
-  if (!plot.marks.empty() && plot.note.empty()) plot.note = "Ticks and bands below: events; hover to read.";
+  if (!plot.marks.empty() && plot.note.empty()) plot.note = "Ticks and bands below: events.";
 }
 
 }  // namespace
@@ -290,31 +291,24 @@ std::vector<Plot> motion_plots(const Results& results) {
   for (const char* end : {"", ".out"})
     if (!is_reported || *end) add(over_time(results, "speed." + link + end, fmt::format("Speed of {}", link), "speed"));
   add(over_angle(results, "speed." + link, fmt::format("Speed of {} over its angle", link), "speed"));
+  const std::string over = " over the " + angle_of_link(front);
   const std::vector<std::string> joints = couplings(front);
   for (std::size_t i = 0; i < joints.size() && i < most_torque_plots; ++i) {
     add(over_time(results, "torque." + joints[i], fmt::format("Torque in {}", joints[i]), "torque"));
-    add(over_angle(results, "torque." + joints[i], fmt::format("Torque in {} over the crank's angle", joints[i]),
-                   "torque"));
+    add(over_angle(results, "torque." + joints[i], fmt::format("Torque in {}", joints[i]) + over, "torque"));
   }
   for (const Trace& trace : front.traces->over_time) {
+    const std::string output = moved_by(*front.model, trace.of);  // "slider of press"
     if (trace.what == quantities::position)
-      add(over_time(
-          results, trace.name,
-          fmt::format("{} of {}", trace.unit == "m" ? "Position of the slider" : "Angle of the rocker", trace.of),
-          trace.unit == "m" ? "position" : "angle"));
+      add(over_time(results, trace.name, fmt::format("{} of the {}", trace.unit == "m" ? "Position" : "Angle", output),
+                    trace.unit == "m" ? "position" : "angle"));
     if (trace.what == quantities::velocity)
-      add(over_time(results, trace.name,
-                    fmt::format("Speed of the {} of {}", trace.unit == "m/s" ? "slider" : "rocker", trace.of),
-                    trace.unit == "m/s" ? "slider speed" : "rocker speed"));
-    if (trace.what == quantities::load_torque) {
-      add(over_time(results, trace.name, fmt::format("Load torque on the rocker of {}", trace.of), "torque"));
-      add(over_angle(results, trace.name,
-                     fmt::format("Load torque on the rocker of {} over the crank's angle", trace.of), "torque"));
-    }
-    if (trace.what == quantities::force) {
-      add(over_time(results, trace.name, fmt::format("Force on the slider of {}", trace.of), "force"));
-      add(over_angle(results, trace.name, fmt::format("Force on the slider of {} over the crank's angle", trace.of),
-                     "force"));
+      add(over_time(results, trace.name, "Speed of the " + output, output.substr(0, output.find(' ')) + " speed"));
+    if (trace.what == quantities::load_torque || trace.what == quantities::force) {
+      const bool is_force = trace.what == quantities::force;
+      const std::string title = fmt::format("{} on the {}", is_force ? "Force" : "Load torque", output);
+      add(over_time(results, trace.name, title, is_force ? "force" : "torque"));
+      add(over_angle(results, trace.name, title + over, is_force ? "force" : "torque"));
     }
     if (const auto [title, label] = of_joint_or_rod(trace); !title.empty())
       add(over_time(results, trace.name, title, label));
@@ -336,9 +330,11 @@ std::vector<Plot> drive_plots(const Results& results) {
     plots.push_back(std::move(*plot));
   };
   const Result& front = *results.back();
+  std::set<std::string> drawn;  // a drive may have several accounts: a torque, and what shakes it
   for (const WorkAccount& account : front.model->accounts) {
     const std::string& name = account.name;
-    if (account.kind != Account::driving || !front.traces->find("torque." + name)) continue;
+    if (account.kind != Account::driving || !front.traces->find("torque." + name) || !drawn.insert(name).second)
+      continue;
     add(over_time(results, "torque." + name, fmt::format("Torque of {}", name), "torque"),
         reported_figure(front, "motor_rms_torque." + name, "RMS over the run:"));
     add(product_over_time(results, "torque." + name, "speed." + name, fmt::format("Power of {}", name), "power"),

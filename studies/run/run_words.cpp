@@ -78,6 +78,22 @@ const Figure* first_of(const Result& r, const QuantityKind& what) {
   return nullptr;
 }
 
+std::string angle_of_link(const Result& r) {
+  const Network& net = r.model->network;
+  const std::string& link = net.nodes[static_cast<std::size_t>(r.model->reduction_node)].component;
+  return find_mechanism(net, link) ? "crank angle" : "angle of " + link;
+}
+
+std::string moved_by(const Model& model, const std::string& component) {
+  const Mechanism* mechanism = find_mechanism(model.network, component);
+  if (!mechanism) return "output of " + component;
+  const LinkageDrawing& drawing = mechanism->data.drawing();
+  const bool slides = std::any_of(drawing.links.begin(), drawing.links.end(), [&](const auto& link) {
+    return link.shape == "slider" && link.joints.front() == drawing.output;
+  });
+  return (drawing.rocks ? "rocker of " : slides ? "slider of " : "output of ") + component;
+}
+
 std::vector<std::string> notes_on_arcs(const Model& model) {
   std::vector<std::string> notes;
   for (const Network::ShaftElement& e : model.network.elements)

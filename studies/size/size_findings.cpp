@@ -24,6 +24,17 @@ const DeltaReached* reached(const Sizing& s, SizedModel model) {
   return nullptr;
 }
 
+const DeltaReached* reached_by_machine(const Sizing& s) {
+  const DeltaReached* real = reached(s, SizedModel::elastic);
+  return real ? real : reached(s, SizedModel::rigid);
+}
+// The machine as it is has a larger δ with the flywheel of the work equation, by more than its error.
+bool misses(const Sizing& s) {
+  constexpr double visible = 1.02;
+  const DeltaReached* real = reached_by_machine(s);
+  return s.needed && real && real->crank.value - real->crank.error.value_or(0) > visible * s.delta;
+}
+
 std::string conclusion_of(const Sizing& s) {
   const SizeMethod& exact = exact_method(s);
   if (s.needed && exact.flywheel.value <= 0)
@@ -54,16 +65,19 @@ std::string conclusion_of(const Sizing& s) {
                                               s.soft->flywheel.value, less >= 0 ? "suffice" : "are needed",
                                               std::abs(less), less >= 0 ? "less" : "more");
   }
-  if (!s.meeting_words.empty()) text += "; " + s.meeting_words;
+  if (!s.meeting_words.empty() && !(misses(s) && s.meeting)) text += "; " + s.meeting_words;
   return text;
+}
+
+std::string at_motor(const Sizing& s, const DeltaReached& r) {
+  return s.motor.empty() || r.model == SizedModel::rigid ? "" : fmt::format(", and {:.4g} at the motor", r.motor.value);
 }
 
 // Results of the sized machine, one sentence per model: δ is demanded and assessed at the crank.
 std::string words_of(const Sizing& s, const DeltaReached& r) {
-  return fmt::format(
-      "{} with {:.4g} kg·m², δ is {:.4g} at the crank, where {:g} is demanded{}",
-      r.model == SizedModel::elastic ? "Simulated elastic" : "Simulated rigid", r.flywheel, r.crank.value, s.delta,
-      s.motor.empty() || r.model == SizedModel::rigid ? "" : fmt::format(", and {:.4g} at the motor", r.motor.value));
+  return fmt::format("{} with {:.4g} kg·m², δ is {:.4g} at the crank{}",
+                     r.model == SizedModel::elastic ? "Simulated elastic" : "Simulated rigid", r.flywheel,
+                     r.crank.value, at_motor(s, r));
 }
 
 std::string comparison_with_scene(const Sizing& s) {
@@ -343,20 +357,20 @@ void say_notes(Findings& f, Chapter in, const Sizing& s) {
 
 // The actual machine may not have the δ that it was sized for.
 void add_answers(Findings& f, const Sizing& s) {
+  const DeltaReached* real = reached_by_machine(s);
   f.conclude(s.complete, conclusion_of(s));
   for (const SizedModel model : {SizedModel::rigid, SizedModel::elastic})
-    if (const DeltaReached* r = s.needed ? reached(s, model) : nullptr) f.conclude(true, words_of(s, *r));
-  const DeltaReached* real = reached(s, SizedModel::elastic);
-  if (!real) real = reached(s, SizedModel::rigid);
-  constexpr double visible = 1.02;
-  if (s.needed && real && real->crank.value - real->crank.error.value_or(0) > visible * s.delta)
+    if (const DeltaReached* r = s.needed ? reached(s, model) : nullptr; r && !(misses(s) && r == real))
+      f.conclude(true, words_of(s, *r));
+  if (misses(s))
     f.claim(claimed(
         Predicate::demand_missed,
         fmt::format(
-            "{}the work equation gives {:.6g} kg·m², too small for δ = {:g}: simulated, δ is {:.4g} at the crank, "
-            "{:.3g} times that",
+            "{}the work equation gives {:.6g} kg·m², too small for δ = {:g}: simulated {}, δ is {:.4g} at the crank, "
+            "{:.3g} times that{}",
             s.meeting ? fmt::format("\"{}\" needs {:.6g} kg·m²; ", s.flywheel, s.meeting->flywheel.value) : "",
-            exact_method(s).flywheel.value, s.delta, real->crank.value, real->crank.value / s.delta),
+            exact_method(s).flywheel.value, s.delta, real->model == SizedModel::elastic ? "elastic" : "rigid",
+            real->crank.value, real->crank.value / s.delta, at_motor(s, *real)),
         s.link, {.value = real->crank.value, .limit = s.delta, .error = real->crank.error}));
 }
 

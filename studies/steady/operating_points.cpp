@@ -216,9 +216,13 @@ StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double targe
         estimate_from(outcome.t, integrate(equations, run, {}).t, (1e-12 + left_by_tables(m.scene)) * outcome.t);
   }
   if (result.reached || !result.why.empty()) return result;
-  result.why = fmt::format("from rest \"{}\" does not reach {} within {}; it then turns at {}", m.node_label(node),
-                           speed_text(m.scene.speed_unit, target), with_unit(limit, "s", 4),
-                           speed_text(m.scene.speed_unit, result.w.back() * m.node_ratio[at(node)]));
+  constexpr double at_rest = 1e-6;  // of the speed scale
+  const double then = result.w.back() * m.node_ratio[at(node)];
+  result.falls_short = true;
+  result.why = fmt::format(
+      "from rest \"{}\" does not reach {} within {}; it then {}", m.node_label(node),
+      speed_text(m.scene.speed_unit, target), with_unit(limit, "s", 4),
+      std::abs(then) < at_rest * scale ? "stands still" : "turns at " + speed_text(m.scene.speed_unit, then));
   return result;
 }
 

@@ -98,6 +98,7 @@ struct StartRun {
   Estimate time;             // from rest to the target; error: difference with 100 × looser steps [s]
   std::vector<double> t, w;  // the link's speed during the start [s, rad/s]
   std::string why;           // why it was not reached
+  bool falls_short = false;  // it was simulated to the end, and did not reach it
 };
 // A machine without elasticity, from rest at the scene's start angle until a node (−1: the link) turns at `target` [rad/s].
 StartRun start_from_rest(const std::shared_ptr<const Model>& rigid, double target, double limit,

@@ -14,6 +14,7 @@
 #include "engine/orbit/link_speeds.h"
 #include "engine/run/run.h"
 #include "engine/scene/units.h"
+#include "studies/claims/headline.h"
 #include "studies/findings/figure_text.h"
 #include "studies/steady/cycle_search.h"
 
@@ -291,6 +292,7 @@ class Study {
             fmt::format(", with {} {} than the scene's drive at \"{}\"", with_unit(std::abs(c.added_torque), "N*m", 6),
                         c.added_torque < 0 ? "less" : "more", c.added_at);
     }
+    if (out_.start && out_.start->falls_short) text += ". " + capitalised(out_.start->why);
     out_.conclusion = text + (out_.later.empty() ? "." : fmt::format(". At the end {}.", out_.later));
   }
 

@@ -2,6 +2,7 @@
 #include "engine/base/find_by.h"
 #include "engine/numerics/angles.h"
 #include "studies/run/compare.h"
+#include "studies/run/run_findings.h"
 #include "studies/steady/steady.h"
 
 #include <fmt/format.h>
@@ -58,22 +59,28 @@ auto multiplier_table(const SteadyCycle& c) {
   const auto error = [&c](std::size_t i) {
     return i < c.multiplier_errors.size() ? std::optional(c.multiplier_errors[i]) : std::nullopt;
   };
+  // Not distinguished from zero.
+  const auto is_nothing = [&, error](std::size_t i) { return std::abs(all[i]) <= error(i).value_or(0); };
   return table_of("", fmt::format("Floquet multipliers, {} model", c.label), numbers_below(all.size()))
       .fold(all.size() > 6)
       .not_on_terminal()
       .always()
-      .only_for_people("multiplier", [&](std::size_t i) { return complex_text(all[i]); })
+      .only_for_people(
+          "multiplier",
+          [&, is_nothing](std::size_t i) { return is_nothing(i) ? std::string("0") : complex_text(all[i]); })
       .only_for_programs("real", [&](std::size_t i) { return all[i].real(); })
       .only_for_programs("imaginary", [&](std::size_t i) { return all[i].imag(); })
-      .column("magnitude", "magnitude", [&](std::size_t i) { return std::abs(all[i]); })
+      .only_for_programs("magnitude", [&](std::size_t i) { return std::abs(all[i]); })
+      .only_for_people("magnitude", [&, is_nothing](std::size_t i) { return is_nothing(i) ? 0 : std::abs(all[i]); })
       .only_for_people("numerical error",
                        [&, error](std::size_t i) {
                          return error_cell({std::abs(all[i]), error(i)});
                        })
       .only_for_programs("error", error)
-      .only_for_people("halves in cycles", [&](std::size_t i) {
+      .only_for_people("halves in cycles", [&, is_nothing](std::size_t i) {
         const double size = std::abs(all[i]);
-        return size < 1 - 1e-6 && size > 0 ? fmt::format("{:.4g}", std::log(2.0) / -std::log(size)) : std::string("—");
+        return size < 1 - 1e-6 && size > 0 && !is_nothing(i) ? fmt::format("{:.4g}", std::log(2.0) / -std::log(size))
+                                                             : std::string("—");
       });
 }
 
@@ -233,7 +240,7 @@ Plot diagram_plot(const SteadyStudy& s) {
             .series = {series_of("drive M_d", Role::green, d.curve, speed, &MeanTorques::drive),
                        series_of("loads M_c", Role::orange, d.curve, speed, &MeanTorques::load)},
             .note = "Mean over a cycle at constant speed, reduced to " + s.link +
-                    "; stable where the drive's falls below." +
+                    "; stable where the drive's curve falls below the loads' as the speed rises." +
                     (d.estimate ? " An estimate: losses by the load, or states of the machine, are omitted." : "")};
   const double largest = largest_of(plot);
   for (const bool stable : {true, false}) {
@@ -269,7 +276,8 @@ Plot start_plot(const SteadyStudy& s) {
   Series speed{.name = "rigid", .role = Role::rigid, .x = s.start->t, .y = s.start->w};
   const SpeedUnit unit = s.speed_unit;
   for (double& w : speed.y) w = unit.of(w);
-  return {.title = "Start from rest to 95 % of the steady speed",
+  return {.title = s.start->falls_short ? "Start from rest: it does not reach the steady speed"
+                                        : "Start from rest to 95 % of the steady speed",
           .x = {"time", "s"},
           .y = {"speed of " + s.link, unit.name},
           .series = {speed}};
@@ -305,7 +313,7 @@ std::vector<Plot> cycle_plots(const SteadyStudy& s) {
     const double least = t.what == quantities::slip ? least_slip * last.model->speed_scale : 0;
     const bool moves = std::any_of(t.y.begin(), t.y.end(), [least](double y) { return std::abs(y) > least; });
     if (t.what == quantities::slip && moves) add(t.name, "Slip of " + t.of, "speed of one side against the other");
-    if (t.what == quantities::force && moves) add(t.name, "Force on the slider of " + t.of, "force");
+    if (t.what == quantities::force && moves) add(t.name, "Force on the " + moved_by(*last.model, t.of), "force");
   }
   return plots;
 }

@@ -32,6 +32,12 @@ void LimitCount::end(std::size_t trials) {
   interval = {clopper_pearson(holds, trials).low, clopper_pearson(holds + undecided, trials).high};
 }
 
+std::string limit_in_words(std::string given) {
+  for (const auto& [sign, shown] : {std::pair{"<=", "≤"}, std::pair{">=", "≥"}})
+    if (const std::size_t at = given.find(sign); at != std::string::npos) given.replace(at, 2, shown);
+  return given;
+}
+
 FigureLimit parse_limit(const std::string& text, const std::vector<SweptFigure>& figures) {
   const auto refuse = [&](const std::string& why) {
     throw std::invalid_argument(fmt::format(

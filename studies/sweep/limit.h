@@ -19,6 +19,9 @@ struct FigureLimit {
 enum class Side { holds, undecided, beyond, unknown };
 Side side_of(const FigureLimit& limit, const SweepRow& row);
 
+// For people, with ≤ and ≥: "delta.press ≤ 0.05".
+std::string limit_in_words(std::string given);
+
 // Throws std::invalid_argument with the reason: no such figure, another unit.
 FigureLimit parse_limit(const std::string& text, const std::vector<SweptFigure>& figures);
 

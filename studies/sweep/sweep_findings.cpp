@@ -159,6 +159,47 @@ Rows worst_table(const SweepStudyResult& s) {
 
 // --- all of it ---
 
+// Of the figure that is limited, else of the first that varies.
+const FigureInfluence* influence_to_tell(const SweepStudyResult& s) {
+  const FigureInfluence* told = nullptr;
+  for (const FigureInfluence& f : s.influences) {
+    if (f.ranked.empty()) continue;
+    if (!s.limits.empty() && f.figure == s.limits.front().figure) return &f;
+    if (!told) told = &f;
+  }
+  return told;
+}
+
+// "a, b and c".
+std::string one_after_another(const std::vector<std::string>& words) {
+  std::string text = words.front();
+  for (std::size_t i = 1; i < words.size(); ++i) text += (i + 1 == words.size() ? " and " : ", ") + words[i];
+  return text;
+}
+
+// Several whose intervals overlap (without intervals: within a tenth) are not ranked.
+std::string influence_words(const SweepStudyResult& s) {
+  const FigureInfluence* f = influence_to_tell(s);
+  if (!f) return "";
+  constexpr double alike = 0.9;
+  constexpr std::size_t most_named = 3;
+  const Index& first = f->ranked.front().first;
+  std::vector<std::string> names, parts;
+  for (const Influence& i : f->ranked) {
+    const bool has_interval = first.low < first.high;
+    if (has_interval ? i.first.high < first.low : i.first.value < alike * first.value) continue;
+    names.push_back(s.identity.parameters[i.parameter].path);
+    parts.push_back(percent(std::clamp(i.first.value, 0.0, 1.0)));
+  }
+  const std::string& figure = s.identity.figures[f->figure].name;
+  if (names.size() == 1) return fmt::format("; {} depends most on {} ({} of its variance)", figure, names[0], parts[0]);
+  if (names.size() > most_named)
+    return fmt::format("; {} depends on {} parameters alike, at most {} of its variance by one alone", figure,
+                       names.size(), parts[0]);
+  return fmt::format("; {} depends on {} together ({} of its variance by each alone)", figure, one_after_another(names),
+                     one_after_another(parts));
+}
+
 std::string conclusion_of(const SweepStudyResult& s) {
   std::string text = counted(s.tally.rows);
   if (s.tally.rows < s.wanted) text += " of " + counted(s.wanted);
@@ -167,18 +208,11 @@ std::string conclusion_of(const SweepStudyResult& s) {
   if (s.tally.unconfirmed) text += fmt::format(", {} not confirmed", counted(s.tally.unconfirmed));
   for (const LimitCount& c : s.tally.limits)
     if (c.decided() == 0 && c.undecided == 0)
-      text += fmt::format("; {}: no variant has that figure", c.limit);
+      text += fmt::format("; {}: no variant has that figure", limit_in_words(c.limit));
     else
-      text += fmt::format("; {} holds in {} of {}{}", c.limit, counted(c.holds), counted(c.decided()),
+      text += fmt::format("; {} holds in {} of {}{}", limit_in_words(c.limit), counted(c.holds), counted(c.decided()),
                           c.undecided ? fmt::format(", {} undecided", counted(c.undecided)) : "");
-  for (const FigureInfluence& f : s.influences) {
-    if (f.ranked.empty()) continue;
-    const Influence& most = f.ranked.front();
-    text += fmt::format("; {} depends most on {} ({} of its variance)", s.identity.figures[f.figure].name,
-                        s.identity.parameters[most.parameter].path, percent(std::clamp(most.first.value, 0.0, 1.0)));
-    break;
-  }
-  return text;
+  return text + influence_words(s);
 }
 
 void fill(std::vector<DataCell>& cells, const SweepStudyResult& s, const SweepRow& r) {
@@ -297,7 +331,7 @@ std::string line_of(const SweepIdentity& identity, const SweepRow& row) {
 Rows limit_table(const std::string& title, const std::vector<LimitCount>& limits, const std::string& unknown,
                  const std::string& from) {
   return table_of("limits", title, limits)
-      .column("limit", "limit", &LimitCount::limit)
+      .column("limit", "limit", &LimitCount::limit, limit_in_words)
       .column("holds", "hold", &LimitCount::holds)
       .column("undecided", "within their error", &LimitCount::undecided)
       .column("beyond", "beyond", &LimitCount::beyond)
@@ -313,7 +347,7 @@ Claims share_claims(const std::vector<LimitCount>& limits, std::size_t failed, s
   for (const LimitCount& c : limits)
     if (const auto decided = static_cast<double>(c.decided()); decided > 0)
       add(claims, claimed_aside(Predicate::share_holds,
-                                fmt::format("{} holds in {:.3g} … {:.3g} % of such machines", c.limit,
+                                fmt::format("{} holds in {:.3g} … {:.3g} % of such machines", limit_in_words(c.limit),
                                             100 * c.interval.low, 100 * c.interval.high),
                                 {},
                                 {.value = static_cast<double>(c.holds) / decided,

@@ -101,7 +101,7 @@ Plot response(const SweepStudyResult& s, std::size_t figure, std::size_t paramet
     add_cloud(plot, s, points, figure, unit.factor);
   for (const FigureLimit& l : s.limits)
     if (l.figure == figure && !points.empty())
-      plot.series.push_back({.name = l.given,
+      plot.series.push_back({.name = limit_in_words(l.given),
                              .role = Role::vermillion,
                              .x = {points.front().second, points.back().second},
                              .y = {unit.factor * l.value, unit.factor * l.value},
@@ -161,7 +161,7 @@ Plot map_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::s
   plot.map = cells_of(s, figure, a, b, unit);
   if (plot.map && s.identity.parameters.size() > 2) plot.note = "Colours: mean over all other parameters.";
   if (limit) {
-    plot.title += fmt::format(": where {}", limit->given);
+    plot.title += fmt::format(": where {}", limit_in_words(limit->given));
     if (!plot.map) add("holds", Role::green, [&](const SweepRow& r) { return side_of(*limit, r) == Side::holds; });
     add("within its error", Role::orange, [&](const SweepRow& r) { return side_of(*limit, r) == Side::undecided; });
     add("beyond", Role::vermillion, [&](const SweepRow& r) { return side_of(*limit, r) == Side::beyond; });

@@ -39,7 +39,7 @@ std::string percent(double relative) {
 }
 
 std::string change_in_words(const TrialChange& c) {
-  if (c.gone) return "none then";
+  if (c.gone) return "not found";
   if (c.change.from_nothing) return "from zero";
   return c.relative > 9 ? fmt::format("{:.3g} ×", std::abs(c.change.without / c.change.full)) : percent(c.relative);
 }

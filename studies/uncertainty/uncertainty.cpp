@@ -133,8 +133,8 @@ class UncertaintyWork {
     for (std::size_t i = 0; i < below_noise_.size() && i < most_named; ++i) list += (i ? ", " : "") + below_noise_[i];
     if (below_noise_.size() > most_named) list += fmt::format(" and {} more", below_noise_.size() - most_named);
     study_.notes.push_back(
-        fmt::format("what lies below the noise floor, the errors of the runs on both sides, may be nothing: {} (a "
-                    "smaller accuracy in [run] lowers the floor)",
+        fmt::format("what lies below the noise floor, the errors of the runs on both sides, is not significant: {} "
+                    "(a smaller accuracy in [run] lowers the floor)",
                     list));
   }
 
@@ -269,9 +269,10 @@ class UncertaintyWork {
   void conclude() {
     std::string& text = study_.conclusion;
     for (const LimitCount& c : study_.limits)
-      text += fmt::format("{}{} holds in {:.3g} … {:.3g} % of such machines ({} of {} drawn{})",
-                          text.empty() ? "" : "; ", c.limit, 100 * c.interval.low, 100 * c.interval.high, c.holds,
-                          study_.drawn, c.undecided ? fmt::format(", {} undecided", c.undecided) : "");
+      text +=
+          fmt::format("{}{} holds in {:.3g} … {:.3g} % of such machines ({} of {} drawn{})", text.empty() ? "" : "; ",
+                      limit_in_words(c.limit), 100 * c.interval.low, 100 * c.interval.high, c.holds, study_.drawn,
+                      c.undecided ? fmt::format(", {} undecided", c.undecided) : "");
     const auto figure = std::find_if(study_.figures.begin(), study_.figures.end(), [&](const FigureUncertainty& f) {
       return f.by_gradients.value > 0 && (limits_.empty() || f.figure.name == figures_[limits_.front().figure].name);
     });
@@ -279,10 +280,11 @@ class UncertaintyWork {
       const ToleranceShare& most = figure->shares.front();
       text += fmt::format("{}{} is {} with a standard deviation of {} due to the tolerances", text.empty() ? "" : "; ",
                           figure->figure.name, reported(*figure, *figure), reported(*figure, figure->deviation(), 2));
-      text += figure->is_linear() ? fmt::format("; {} contributes most: without its tolerance it would be {}",
-                                                swept_[most.parameter].path, reported(*figure, most.without, 2))
-                                  : fmt::format(", not in proportion to them; it depends most on small changes of {}",
-                                                swept_[most.parameter].path);
+      text += figure->is_linear()
+                  ? fmt::format("; {} contributes most: without its tolerance the deviation would be {}",
+                                swept_[most.parameter].path, reported(*figure, most.without, 2))
+                  : fmt::format(", not in proportion to them; it depends most on small changes of {}",
+                                swept_[most.parameter].path);
     }
     if (text.empty()) text = "No figure depends on the tolerances that are given";
     if (study_.failed > 0)

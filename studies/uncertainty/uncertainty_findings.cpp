@@ -1,8 +1,12 @@
 // uncertainty_findings.cpp — figures and the sources of their uncertainty.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "engine/scene/units.h"
+#include "studies/claims/headline.h"
+#include "studies/findings/plots.h"
 #include "studies/sweep/sweep_findings.h"
 #include "studies/uncertainty/uncertainty.h"
 
@@ -176,10 +180,19 @@ Findings findings_of(const UncertaintyStudy& s) {
     if (figure.by_gradients.value > 0 && f.figures.size() < 4) {
       const std::string& unit = figure.figure.unit;
       const bool is_speed = unit == "rad/s";
-      const Estimate value{figure.value, 2 * figure.deviation().value};
-      f.figures.push_back({value / (is_speed ? s.speed_unit.size : 1), figure.figure.name,
-                           is_speed ? s.speed_unit.name : unit, "two deviations of the tolerances", 0,
-                           figure.figure.name});
+      const double size = is_speed ? s.speed_unit.size : 1, value = figure.value / size;
+      const double spread = 2 * figure.deviation().value / size;
+      // As many digits as two of the spread have.
+      const int digits = std::clamp(2 + static_cast<int>(std::ceil(std::log10(std::abs(value) / spread))), 2, 6);
+      const ReadableUnit shown = unit_on_tile(value, is_speed ? s.speed_unit.name : unit);
+      f.figures.push_back(
+          {{value},
+           figure.figure.name,
+           is_speed ? s.speed_unit.name : unit,
+           fmt::format("± {}{}: two deviations of the tolerances", rounded_number(shown.factor * spread, 2),
+                       shown.unit.empty() ? "" : " " + pretty_unit(shown.unit)),
+           digits,
+           figure.figure.name});
     }
   const Chapter limits = f.chapter("Limits"), figures = f.chapter("Figures"),
                 shares = f.chapter("Which tolerance matters"), biases = f.chapter("Known biases"),

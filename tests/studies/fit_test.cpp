@@ -299,6 +299,17 @@ TEST_F(Fit, FindsTheDeadCentreOfTableAndRecord) {
   EXPECT_NEAR(found.unknowns.at(1).value, 0.02, 1e-4);
 }
 
+// Of a torque with orders 1 and 2 order 2 alone is compared: the sentence says so, the curve's plot too.
+TEST_F(Fit, TellsWhichOrdersItsResidualIsOf) {
+  FitOptions options = of_driven(driven(), file("orders.csv", driven_record(100)), {"rotor.inertia=0.2..1 kg*m2"});
+  options.records[0].orders = {2};
+  options.checks = false;
+  const FitStudy found = fit_machine(options);
+  EXPECT_NE(found.conclusion.find("; in the orders compared (2) the residual is "), std::string::npos)
+      << found.conclusion;
+  EXPECT_EQ(found.curves.at(0).orders, (std::vector<double>{2}));
+}
+
 // The nearest of 170 ± 360 deg lies beyond the bound, where a fit from 0 ends; another start comes to −190 deg.
 TEST_F(Fit, OfSeveralStartsTheBestIsKept) {
   FitOptions options = of_driven(driven(), file("starts.csv", driven_record(100, 170 * pi / 180)),

@@ -1,0 +1,157 @@
+// plain_sentences_test.cpp — sentences and pages say what was found: which orders a fit compared, that a start falls short,
+// which of two influences leads, what is drawn once.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "studies/dictionary/dictionary.h"
+#include "studies/difference/difference.h"
+#include "studies/modes/modes.h"
+#include "studies/run/run_findings.h"
+#include "studies/size/size.h"
+#include "studies/steady/steady.h"
+#include "studies/sweep/sweep_findings.h"
+#include "tests/support/scenes.h"
+
+namespace kurbel::plain_sentences_test {
+namespace {
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+SimulateOptions once() { return {.measure_error = false, .traces = true, .method = {}, .accuracy = {}, .until = {}}; }
+
+std::vector<std::string> titles(const std::vector<Plot>& plots) {
+  std::vector<std::string> all;
+  for (const Plot& plot : plots) all.push_back(plot.title);
+  return all;
+}
+
+// Kloss: 68 N·m at standstill, 126 N·m at most. Against 100 N·m it goes on at speed, and does not start.
+TEST(PlainSentences, AStartThatFallsShortIsConcluded) {
+  const std::string machine =
+      "line = [\"motor\", \"load\"]\n"
+      "motor = { kind = \"induction motor\", rated_power = \"4 kW\", rated_speed = \"95 rad/s\", synchronous_speed = "
+      "\"100 rad/s\", breakdown_ratio = 3, inertia = \"2 kg*m2\" }\n"
+      "load = { kind = \"load\", torque = \"100 N*m\" }\n[run]\nstart = { speed = \"90 rad/s\" }\n";
+  const SteadyStudy study = steady(test::scene_from(machine), {Effects{}}, {});
+  ASSERT_TRUE(study.start && !study.start->reached) << study.diagnosis;
+  EXPECT_TRUE(study.start->falls_short);
+  EXPECT_TRUE(has(study.start->why, "it then stands still")) << study.start->why;
+  EXPECT_TRUE(has(study.conclusion, "From rest \"motor\" does not reach")) << study.conclusion;
+  const Report page = page_of(findings_of(study));
+  std::set<std::string> drawn;
+  for (const ReportSection& section : page.sections)
+    for (const Card& card : section.cards)
+      if (const Plot* plot = std::get_if<Plot>(&card)) drawn.insert(plot->title);
+  EXPECT_TRUE(drawn.contains("Start from rest: it does not reach the steady speed"));
+}
+
+// y = 10 a + 9.9 b, z = 3 a + b on a complete grid.
+SweepStudyResult study_of_a_square(const std::vector<std::string>& limits) {
+  SweepIdentity identity;
+  identity.meta = {{"design", "grid"}, {"of", "run"}, {"scene file", "x.toml"}, {"seed", "1"}};
+  for (const char* given : {"a.x=0..1", "b.x=0..1"}) identity.parameters.push_back(parse_parameter(given));
+  identity.figures = {{"y", ""}, {"z", ""}};
+  identity.rows = 4;
+  std::vector<SweepRow> rows;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto a = static_cast<double>(i / 2), b = static_cast<double>(i % 2);
+    rows.push_back({.row = i, .parameters = {a, b}, .figures = {{{10 * a + 9.9 * b}, 0}, {{3 * a + b}, 1}}});
+  }
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("kurbel_square_" + std::to_string(getpid()) + ".db");
+  std::filesystem::remove(file);
+  SweepStore(file, identity).write(rows);
+  const SweepStudyResult study = study_of(SweepStore(file), limits);
+  std::filesystem::remove(file);
+  return study;
+}
+
+TEST(PlainSentences, AlikeInfluencesAreNotRankedAndTheLimitedFigureLeads) {
+  const std::string alike = findings_of(study_of_a_square({})).conclusion();
+  EXPECT_TRUE(has(alike, "y depends on a.x and b.x together")) << alike;
+  const std::string limited = findings_of(study_of_a_square({"z <= 2"})).conclusion();
+  EXPECT_TRUE(has(limited, "z ≤ 2 holds in 2 of 4")) << limited;
+  EXPECT_TRUE(has(limited, "z depends most on a.x (90 % of its variance)")) << limited;
+}
+
+// A torque source that is shaken has two accounts of driving work, and one torque.
+TEST(PlainSentences, ADriveIsDrawnOnceAndAnAxleHasNoCrank) {
+  Scene scene = test::scene_file("scenes/drive_axle.toml");
+  scene.run.until = 1;
+  const Result r = simulate(scene, scene.effects, "elastic", once());
+  const std::vector<std::string> drives = titles(drive_plots({&r}));
+  EXPECT_EQ(std::count(drives.begin(), drives.end(), "Torque of motor"), 1);
+  EXPECT_EQ(angle_of_link(r), "angle of motor");
+  for (const std::string& title : titles(motion_plots({&r}))) EXPECT_FALSE(has(title, "crank")) << title;
+}
+
+TEST(PlainSentences, APointThatALegMovesIsNoSlider) {
+  Scene scene = test::scene_file("scenes/walking_leg.toml");
+  scene.run.until = 0.1;
+  const Result r = simulate(scene, scene.effects, "rigid", once());
+  EXPECT_EQ(moved_by(*r.model, "leg"), "output of leg");
+  scene = test::scene_file("scenes/crank_press.toml");
+  scene.run.until = 0.01;
+  EXPECT_EQ(moved_by(*simulate(scene, scene.effects, "rigid", once()).model, "press"), "slider of press");
+}
+
+// What both have is mentioned on both sides; a tile gives the other value in its own unit.
+TEST(PlainSentences, ModelsComparedMentionTheTorqueLagOnBothSides) {
+  Scene scene = test::scene_file("scenes/crank_press.toml");
+  scene.run.until = 1;
+  const Comparison c = compare(scene, models_to_compare(scene), once());
+  const Findings f = findings_of(c);
+  EXPECT_TRUE(has(f.subtitle,
+                  "rigid (torque lag) against elastic (elasticity of motor_coupling, main_coupling, with "
+                  "torque lag)"))
+      << f.subtitle;
+  ASSERT_FALSE(f.figures.empty());
+  EXPECT_TRUE(has(f.figures.front().note, " N·m · ratio ")) << f.figures.front().note;
+}
+
+TEST(PlainSentences, AFrequencyAboveTheUndampedOneHasItsReason) {
+  const Scene scene = test::scene_file("scenes/crank_press.toml");
+  const ModesStudy m = find_modes(scene, scene.effects, {});
+  const std::string conclusion = findings_of(m).conclusion();
+  EXPECT_TRUE(has(conclusion, "Hz, raised by ")) << conclusion;
+}
+
+// The speed of a load that drives the machine backwards changes its sign: a percentage says nothing of it.
+TEST(PlainSentences, AChangeOfSignDoesNotLead) {
+  MachineDifference d;
+  d.a.file = "a.toml", d.b.file = "b.toml";
+  d.figures = {{.name = "turned", .unit = "N", .a = Estimate{1}, .b = Estimate{-3}},
+               {.name = "small", .unit = "N", .a = Estimate{1}, .b = Estimate{1.1}},
+               {.name = "large", .unit = "N", .a = Estimate{1}, .b = Estimate{1.5}}};
+  const Findings f = findings_of(d);
+  ASSERT_FALSE(f.figures.empty());
+  EXPECT_NE(f.figures.front().name, "turned");
+  const Report page = page_of(f);
+  std::vector<std::string> drawn;
+  for (const ReportSection& section : page.sections)
+    for (const Card& card : section.cards)
+      if (const Plot* plot = std::get_if<Plot>(&card); plot && plot->bars) drawn = plot->x.names;
+  EXPECT_EQ(drawn, (std::vector<std::string>{"large", "small"}));
+}
+
+TEST(PlainSentences, ASizedFlywheelIsSaidOnce) {
+  SizeOptions options;
+  options.delta = 0.05;
+  const std::string said =
+      findings_of(size_flywheel(test::scene_file("scenes/crank_press.toml"), options)).conclusion();
+  const std::size_t first = said.find("δ is 0.0570");
+  ASSERT_NE(first, std::string::npos) << said;
+  EXPECT_EQ(said.find("δ is 0.0570", first + 1), std::string::npos) << said;
+  EXPECT_FALSE(has(said, "meets δ")) << said;
+}
+
+TEST(PlainSentences, WordsOfPagesAreExplained) {
+  for (const char* words : {"thermal load", "load edge", "folded dead centre", "Floquet multipliers", "angle of motor"})
+    EXPECT_NE(meant_by(words), nullptr) << words;
+}
+
+}  // namespace
+}  // namespace kurbel::plain_sentences_test
