@@ -183,7 +183,9 @@ Findings findings_of(const UncertaintyStudy& s) {
       const double size = is_speed ? s.speed_unit.size : 1, value = figure.value / size;
       const double spread = 2 * figure.deviation().value / size;
       // As many digits as two of the spread have.
-      const int digits = std::clamp(2 + static_cast<int>(std::ceil(std::log10(std::abs(value) / spread))), 2, 6);
+      constexpr int most_digits = 6;
+      const double parts = spread > 0 ? std::clamp(std::abs(value) / spread, 1.0, 1e6) : 1e6;
+      const int digits = std::min(2 + static_cast<int>(std::ceil(std::log10(parts))), most_digits);
       const ReadableUnit shown = unit_on_tile(value, is_speed ? s.speed_unit.name : unit);
       f.figures.push_back(
           {{value},
