@@ -124,7 +124,7 @@ constexpr std::array kinds = {
               "run, compare, steady"},
     ClaimKind{not_steady_yet, runs, note, anything, "the mid speed is more than 0.1 % away from its limit",
               "at: end of the run; value: remaining change of the mid speed [rad/s]",
-              "\"motor\" has not reached a steady motion by 8 s: the mean speed is only within 0.852 % of its limit",
+              "\"motor\" has not reached a steady motion by 8 s: the mean speed is still 0.852 % from its final value",
               "run, compare"},
     ClaimKind{moves, runs, note, anything,
               "the run is too short for any other claim; a speed beyond 1.5 times the usual one is stated",
