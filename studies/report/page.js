@@ -421,7 +421,7 @@
       for (const s of named) make('span', 'is-' + s.role, s.textAtStart, list);
     }
     const note = plot.note ? make('p', 'note', plot.note, card) : null;
-    if (note && plot.marks.length) make('span', 'on-screen', ' Point at one to read it.', note);
+    if (note && plot.note.endsWith('events.')) make('span', 'on-screen', ' Point at one to read it.', note);
     plots.push(entry);
   }
   function drawPlot(entry) {
