@@ -13,6 +13,7 @@
 #include "engine/linear/eigen_modes.h"
 #include "engine/matrices/linear_algebra.h"
 #include "engine/tables/table_file.h"
+#include "tests/support/eigen_solutions.h"
 
 namespace kurbel::test {
 
@@ -73,7 +74,7 @@ Eigen::MatrixXd state_matrix(const std::string& text) {
 }
 
 std::vector<double> natural_frequencies(const std::string& text) {
-  const Eigen::VectorXcd eigenvalues = state_matrix(text).eigenvalues();
+  const Eigen::VectorXcd eigenvalues = eigen_solution(state_matrix(text)).values;
   const double largest = eigenvalues.cwiseAbs().maxCoeff();
   std::vector<double> frequencies;
   for (const std::complex<double>& lambda : eigenvalues)

@@ -285,7 +285,8 @@ TEST(Confirmation, RunsOfLikeStepsDoNotConfirmThemselves) {
     Scene scene = coverage::make_variant(name, static_cast<std::uint64_t>(seed)).read;
     const Result coarse = simulate(scene, scene.effects, "", {});
     scene.run.method = "verner6";
-    const Result fine = simulate(scene, scene.effects, "", {.measure_error = false, .accuracy = 1e-11, .until = {}});
+    const Result fine =
+        simulate(scene, scene.effects, "", {.measure_error = false, .method = {}, .accuracy = 1e-11, .until = {}});
     ASSERT_TRUE(coarse.complete && coarse.errors_measured && fine.complete) << name;
     for (const Figure& f : coarse.figures) {
       const Figure* const truth = fine.find(f.name);

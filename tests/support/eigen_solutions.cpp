@@ -19,6 +19,7 @@ PairSolution solution_of_pair(const Eigen::MatrixXd& k, const Eigen::MatrixXd& m
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& a) { return a.partialPivLu().inverse(); }
 Eigen::VectorXd solved(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) { return a.partialPivLu().solve(b); }
 Eigen::VectorXcd solved_complex(const Eigen::MatrixXcd& a, const Eigen::VectorXcd& b) {
   return a.partialPivLu().solve(b);

@@ -22,6 +22,7 @@ struct PairSolution {
   Eigen::MatrixXd vectors;
 };
 PairSolution solution_of_pair(const Eigen::MatrixXd& k, const Eigen::MatrixXd& m);
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& a);
 Eigen::VectorXd solved(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 Eigen::VectorXcd solved_complex(const Eigen::MatrixXcd& a, const Eigen::VectorXcd& b);
 // x of the least |a x − b|.
