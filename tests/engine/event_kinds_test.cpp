@@ -25,8 +25,9 @@ EventKind kind_by_words(const Event& e) {
   if (begins("comes to rest")) return EventKind::rest;
   if (begins("is held by its losses")) return EventKind::held;
   if (begins("moves ")) return EventKind::motion;
-  if (e.what == "locks") return EventKind::lock;
-  if (begins("slips ") && (e.from == "locked" || e.from.starts_with("slipping "))) return EventKind::slip;
+  if (e.what == "locks" || e.what == "grips") return EventKind::lock;  // grips: an elastic belt
+  if (begins("slips") && (e.from == "locked" || e.from.starts_with("slipping ") || e.from == "grips"))
+    return EventKind::slip;
   if (begins("is held in proportion")) return EventKind::shares;
   if (begins("is set ") || begins("goes to ")) return EventKind::command;
   if (e.what == "on" || e.what == "off") return EventKind::window;
@@ -44,7 +45,7 @@ std::optional<double> value_by_words(const Event& e) {
       return 0;
     case EventKind::motion:
     case EventKind::slip:
-      if (e.what.ends_with(" forwards")) return 1;
+      if (e.what.ends_with(" forwards") || e.what == "slips") return 1;
       if (e.what.ends_with(" backwards")) return -1;
       return {};  // a law of its own, which names its modes itself
     case EventKind::command: {
