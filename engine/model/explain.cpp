@@ -104,7 +104,7 @@ std::string Model::explain() const {
   const bool lags = std::any_of(internal_states.begin(), internal_states.end(),
                                 [](const PlacedInternalState& own) { return own.state.lags; });
   // An elastic machine has it without mention.
-  const bool mentioned = effects.describe().find("torque lag") != std::string::npos;
+  const bool mentioned = effects.torque_lag && effects.lags_rigid;
   std::string text =
       fmt::format("effects on: {}{}\n", effects.describe(), lags && !mentioned ? ", with torque lag" : "");
   text += fmt::format("coordinates: {} = {} shaft speed{}{}; angles kept: {} (turns apart from the remainder)\n",

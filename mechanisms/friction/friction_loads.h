@@ -22,9 +22,9 @@ struct JointFriction::Work {
   double answer[most_reactions];                 // b
   double influence[most_loads][most_reactions];  // U + m b vᵀ
   double q[most_loads], r[most_reactions], wanted[most_loads];
-  double largest = 0, least = 0;      // |wanted|; of pins with friction
+  double largest = 0, least = 0;      // of |wanted|: of all, of pins with friction
   double by[2][most_loads];           // ∂law/∂ the two reactions of its joint
-  std::size_t of[most_loads];         // this joint
+  std::size_t of[most_loads];         // joint of each load
   double lu[most_loads][most_loads];  // of 1 − s ∂law/∂R (U + m b vᵀ)
   double inverse[most_loads];         // of its pivots
   std::size_t row[most_loads];
@@ -83,7 +83,8 @@ struct JointFriction::Work {
     for (std::size_t k = 0; k < n; ++k)
       for (std::size_t i = k + 1; i < n; ++i) x[i] -= lu[k][i] * x[k];
 #pragma GCC unroll 8
-    for (std::size_t k = n; k-- > 0;) {
+    for (std::size_t left = n; left > 0; --left) {
+      const std::size_t k = left - 1;
       for (std::size_t j = k + 1; j < n; ++j) x[k] -= lu[j][k] * x[j];
       x[k] *= inverse[k];
     }

@@ -41,8 +41,8 @@ inline void put_eight(char* out, std::uint64_t digits) {
   std::memcpy(out, &digits, 8);
 }
 
-// Usual numbers, several times faster than by the library: scaled by a power of ten that is exact, so that one rounding is known to be less
-// than a thousandth of the last digit. Null: another number, or too near to the middle of two.
+// Usual numbers, several times faster than by the library: scaled by a power of ten that is exact, so that one rounding
+// is known to be less than a thousandth of the last digit. Null: another number, or too near to the middle of two.
 inline char* put_usual(char* out, double value, int digits) {
   const double size = std::abs(value);
   if (digits < 1 || digits > 12) return nullptr;

@@ -72,8 +72,7 @@ inline constexpr PageWord of_pages[] = {
     {"time ratio", "forces, reduce", "of the slower stroke's crank angle to the quicker one's (quick return: > 1)"},
     {"dead centre; dead centres; folded dead centre; extended dead centre", "forces, reduce",
      "crank angles where the output stands and turns back: crank and coupler (or rod) lie in one line, folded over "
-     "each "
-     "other or extended"},
+     "each other or extended"},
     {"stroke", "forces, reduce", "way or angle of the output from one dead centre to the other"},
     {"linkage of class *; class of a linkage; RRR; RRP; RPR; dyad", "forces, reduce",
      "Assur's class by the groups of links that close it: II of dyads alone, named by their joints, R turning, P "

@@ -89,6 +89,7 @@ struct NamedPeak {
   std::string unit;   // SI
   std::string means;  // its name in the dictionary
   Peak peak;
+  std::string joint = {}, between = {};  // of a reaction: "crank pin", "crank on coupler"
 };
 
 struct CycleWork {

@@ -42,7 +42,7 @@ std::string begin_conclusion(const Forces& f, const ForceCycle& front) {
   if (f.unbounded.any()) return begin_unbounded(moving, f.unbounded);
   if (front.reactions.empty()) return moving + ": reactions in its joints are not assessed";
   const NamedPeak& first = front.reactions.front();
-  return fmt::format("{}: {} carries up to {} (at {})", moving, joint_in_words(first.name), in_words(first.peak, "N"),
+  return fmt::format("{}: {} carries up to {} (at {})", moving, joint_in_words(first), in_words(first.peak, "N"),
                      at_angle(first.peak));
 }
 
@@ -68,7 +68,7 @@ std::string conclusion_of(const Forces& f) {
   std::string text = begin_conclusion(f, c);
   if (most && most != &c.reactions.front() && !f.unbounded.any() && !f.balancing)
     text += fmt::format(", the heaviest load of a joint is {} on {}, at {}", in_words(most->peak, "N"),
-                        joint_in_words(most->name), at_angle(most->peak));
+                        joint_in_words(*most), at_angle(most->peak));
   text += ", " + torque_in_words(c);
   if (!is_nothing(c.shaking_force))
     text += fmt::format(", the shaking force peaks at {}", in_words(c.shaking_force, "N"));
@@ -120,7 +120,7 @@ std::string checks_of(const ForceCycle& c) {
 
 KeyFigure key_figure(const NamedPeak& p) {
   const Estimate most{p.peak.reported(), p.peak.error};
-  const std::string name = (p.name.find(": ") != std::string::npos ? "largest reaction, " : "largest ") + p.name;
+  const std::string name = (p.joint.empty() ? "largest " : "largest reaction, ") + p.name;
   return {most, name, p.unit, fmt::format("at φ = {}", at_angle(p.peak)), 0, p.means};
 }
 
@@ -401,7 +401,7 @@ std::vector<NamedPeak> peaks_of(const Forces& f, const ForceCycle& c) {
   for (const NamedPeak& r : c.reactions) {
     if (f.balancing && r.means == "reaction_moment") continue;
     peaks.push_back(r);
-    if (f.balancing) peaks.back().name = "reaction of the " + r.name.substr(0, r.name.find(':'));
+    if (f.balancing) peaks.back().name = "reaction of the " + r.joint, peaks.back().joint.clear();
   }
   peaks.push_back({"balancing torque", "N*m", "balancing_torque", c.torque});
   peaks.push_back({"shaking force", "N", "shaking_force", c.shaking_force});

@@ -20,7 +20,7 @@ double or_zero(double value, double largest);
 // Peaks of every joint, then balancing torque, shaking force and moment.
 std::vector<NamedPeak> peaks_of(const Forces& forces, const ForceCycle& cycle);
 // "the main bearing (frame on crank)", "pin O (frame on crank)".
-std::string joint_in_words(const std::string& reaction);
+std::string joint_in_words(const NamedPeak& reaction);
 // "crank pin"; of a name that several have "pin A: crank on coupler".
 std::string heading_of(const std::vector<JointForces>& joints, const JointForces& joint);
 // For programs: a problem with its positions; and tables of all positions for files.

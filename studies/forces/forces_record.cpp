@@ -104,11 +104,9 @@ std::string heading_of(const std::vector<JointForces>& joints, const JointForces
   return alike > 1 ? fmt::format("{}: {} on {}", name, j.from, j.on) : name;
 }
 
-std::string joint_in_words(const std::string& reaction) {
-  const std::string article = reaction.starts_with("pin ") ? "" : "the ";
-  const std::size_t colon = reaction.find(": ");
-  if (colon == std::string::npos) return article + reaction;
-  return fmt::format("{}{} ({})", article, reaction.substr(0, colon), reaction.substr(colon + 2));
+std::string joint_in_words(const NamedPeak& reaction) {
+  const char* const article = reaction.joint.starts_with("pin ") ? "" : "the ";
+  return fmt::format("{}{} ({})", article, reaction.joint, reaction.between);
 }
 
 Record cycle_record(const Forces& study, const ForceCycle& c) {

@@ -159,15 +159,16 @@ void Builder::find_peaks() {
   const LinkageForces& first = samples_.front().forces;
   for (std::size_t k = 0; k < first.joints.size(); ++k) {
     const JointForces& j = first.joints[k];
-    const std::string name = fmt::format("{}: {} on {}", j.name, j.from, j.on);
+    const std::string joint(j.name), between = fmt::format("{} on {}", j.from, j.on), name = joint + ": " + between;
     const LinkageQuantity force = [k](const PositionForces& p) {
       const JointForces& here = p.forces.joints[k];
       return here.slides ? here.normal : here.force.magnitude();
     };
-    cycle_.reactions.push_back({name, "N", "reaction", peak(force, force_)});
+    cycle_.reactions.push_back({name, "N", "reaction", peak(force, force_), joint, between});
     if (j.slides)
       cycle_.reactions.push_back({name + ", moment", "N*m", "reaction_moment",
-                                  peak([k](const PositionForces& p) { return p.forces.joints[k].moment; }, moment_)});
+                                  peak([k](const PositionForces& p) { return p.forces.joints[k].moment; }, moment_),
+                                  joint, between});
   }
   cycle_.torque = peak([](const PositionForces& p) { return p.forces.torque; }, moment_);
   cycle_.at_torque_peak = at(cycle_.torque.phi, motion_between(motion_, cycle_.torque.phi));

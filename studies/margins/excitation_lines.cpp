@@ -237,13 +237,13 @@ std::string source_of(const Excitations& x, std::size_t harmonic, double speed,
   const auto like =
       std::count_if(strength.begin(), strength.end(), [&](const auto& s) { return s.second > 0.5 * most; });
   if (name.empty() || like < 2) return as_words(name);
-  // cylinder_1 … cylinder_4: "4 × cylinder"
+  // cylinder_1 … cylinder_4: "cylinder (4 alike)"; "4 × cylinder" would read as four times its speed
   const std::string stem = name.substr(0, name.find_last_not_of("0123456789") + 1);
   const bool alike = std::all_of(strength.begin(), strength.end(), [&](const auto& s) {
     return !(s.second > 0.5 * most) || s.first.substr(0, s.first.find_last_not_of("0123456789") + 1) == stem;
   });
   return alike && !stem.empty()
-             ? fmt::format("{} × {}", like, as_words(stem.substr(0, stem.find_last_not_of("_-") + 1)))
+             ? fmt::format("{} ({} alike)", as_words(stem.substr(0, stem.find_last_not_of("_-") + 1)), like)
              : fmt::format("{} and {} more", as_words(name), like - 1);
 }
 

@@ -129,14 +129,8 @@ std::string legend_of(const std::vector<const ExcitationLine*>& lines) {
       same->second += ", " + line->label;
   }
   std::string text;
-  for (const auto& [source, labels] : by_source) {
-    const std::string times = " × ";  // "4 × cylinder" beside "2×" would read as twice the speed
-    const std::size_t at = source.find(times);
-    const std::string of = at == std::string::npos
-                               ? source
-                               : fmt::format("{} ({} alike)", source.substr(at + times.size()), source.substr(0, at));
-    text += fmt::format("{}{}: {}", text.empty() ? "Sources: " : "; ", of, labels);
-  }
+  for (const auto& [source, labels] : by_source)
+    text += fmt::format("{}{}: {}", text.empty() ? "Sources: " : "; ", source, labels);
   return text.empty() ? "" : text + ". ";
 }
 

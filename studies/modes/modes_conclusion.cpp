@@ -113,10 +113,17 @@ std::string why_shifted(const ModesStudy& m, const Mode& mode, double f) {
   const double lambda = mode.magnitude(), by_damping = f == mode.lambda.imag() ? f / lambda : 1;
   if (std::abs(lambda - mode.omega) <= much * mode.omega || std::abs(f - mode.omega * by_damping) <= much * mode.omega)
     return "";
-  for (const EnergyStore& store : energy_stores(m, mode))
-    if (!store.name.starts_with("springs") && store.name != "inertias" && store.share > 0)
-      return fmt::format(", {} by the {}", f > mode.omega ? "raised" : "lowered", store.name);
-  return "";
+  constexpr double nearly_all = 0.9;
+  double all = 0;
+  const EnergyStore* most = nullptr;
+  const std::vector<EnergyStore> stores = energy_stores(m, mode);
+  for (const EnergyStore& store : stores) {
+    if (store.name.starts_with("springs") || store.name == "inertias") continue;
+    all += store.share;
+    if (!most || store.share > most->share) most = &store;
+  }
+  if (!most || !(most->share > nearly_all * all)) return "";
+  return fmt::format(", {} by the {}", f > mode.omega ? "raised" : "lowered", most->name);
 }
 
 std::string nature_of(const ModesStudy& m, const Mode& mode) {

@@ -37,8 +37,8 @@ std::string energy_text(const ModesStudy& study, const Mode& mode);
 // "torsional", "electrical", "mechanical and electrical": every kind that has a tenth of the energy.
 std::string nature_of(const ModesStudy& study, const Mode& mode);
 
-// ", raised by the lagging torque of motor": the internal state with most of the mode's energy, if the mode's damping alone does
-// not explain the frequency f [rad/s]; else empty.
+// ", raised by the lagging torque of motor": the internal state that holds nearly all of the mode's energy in such states, if the
+// mode's damping alone does not explain the frequency f [rad/s]; else empty.
 std::string why_shifted(const ModesStudy& study, const Mode& mode, double f);
 
 std::vector<Plot> mode_plots(const ModesStudy& study);

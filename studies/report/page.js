@@ -420,8 +420,9 @@
       const list = make('div', 'legend', null, card);
       for (const s of named) make('span', 'is-' + s.role, s.textAtStart, list);
     }
-    const note = plot.note ? make('p', 'note', plot.note, card) : null;
-    if (note && plot.note.endsWith('events.')) make('span', 'on-screen', ' Point at one to read it.', note);
+    if (plot.note) make('p', 'note', plot.note, card);
+    else if (plot.marks.length)
+      make('span', 'on-screen', ' Point at one to read it.', make('p', 'note', 'Ticks and bands below: events.', card));
     plots.push(entry);
   }
   function drawPlot(entry) {

@@ -180,7 +180,8 @@ Comparison compare(const Scene& scene, const ModelPair& models, const SimulateOp
   timed.timed = true;
   c.a = simulate(scene, models.a, models.label_a, timed);
   c.b = simulate(scene, models.b, models.label_b, timed);
-  c.in_both = in_both(models.a, models.b).describe();
+  const Effects both = in_both(models.a, models.b);
+  c.in_both = both.describe(), c.lag_in_both = both.torque_lag && both.lags_rigid;
   add_rows(c);
   if (c.a.trajectory && c.b.trajectory) note_sudden_loads(c);
   conclude(c);

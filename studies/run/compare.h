@@ -43,8 +43,9 @@ ModelPair models_to_compare(const Scene& scene, const std::optional<Effects>& ef
 
 struct Comparison {
   std::string title;
-  Result a, b;          // a: the simpler model
-  std::string in_both;  // effects that both models have: "joint friction"; "none"
+  Result a, b;               // a: the simpler model
+  std::string in_both;       // effects that both models have: "joint friction"; "none"
+  bool lag_in_both = false;  // the torque lag of motors among them
   std::vector<ComparisonRow> rows;
   std::vector<ComparisonRow> amplification;  // torque amplification factors: peak of b over peak of a
   std::vector<std::string> notes;

@@ -97,9 +97,9 @@ std::vector<ComparisonRow> rows_that_differ(const Comparison& c) {
 
 // An elastic model has the torque lag of its motors without mention; beside a rigid one that has it, it is mentioned.
 std::string effects_in_words(const Comparison& c, const Result& r) {
-  constexpr const char* lag = "torque lag";
-  const bool both = c.in_both.find(lag) != std::string::npos, mentioned = r.effects.find(lag) != std::string::npos;
-  return both && !mentioned ? fmt::format("{}, with {}", r.effects, lag) : r.effects;
+  const Effects& effects = r.model->effects;
+  const bool mentioned = effects.torque_lag && effects.lags_rigid;
+  return c.lag_in_both && !mentioned ? r.effects + ", with torque lag" : r.effects;
 }
 std::string models_in_words(const Comparison& c) {
   return fmt::format("{} ({}) against {} ({})", c.a.label, effects_in_words(c, c.a), c.b.label,

@@ -45,8 +45,8 @@ const Figure* first_of(const Result& result, const QuantityKind& what);
 
 // "crank angle", or "angle of motor" if the reduction link is no mechanism.
 std::string angle_of_link(const Result& result);
-// "slider of press", "rocker of lever"; of a linkage whose output is a point: "output of leg".
-std::string moved_by(const Model& model, const std::string& mechanism);
+// What a mechanism moves: "slider", "rocker"; of a linkage whose output is a point: "output".
+std::string moved_part(const Model& model, const std::string& mechanism);
 
 // For cranks that cannot rotate fully.
 std::vector<std::string> notes_on_arcs(const Model& model);

@@ -249,11 +249,6 @@ std::string reported_figure(const Result& r, const std::string& name, const char
                 : std::string();
 }
 
-// Explains the plot's marks, if there are any.
-void note_marks(Plot& plot) {
-  if (!plot.marks.empty() && plot.note.empty()) plot.note = "Ticks and bands below: events.";
-}
-
 }  // namespace
 
 bool drawable(const Results& results) {
@@ -279,9 +274,7 @@ std::vector<Plot> motion_plots(const Results& results) {
   std::vector<Plot> plots;
   if (!drawable(results)) return plots;
   const auto add = [&](std::optional<Plot> plot) {
-    if (!plot) return;
-    note_marks(*plot);
-    plots.push_back(std::move(*plot));
+    if (plot) plots.push_back(std::move(*plot));
   };
   const Result& front = *results.back();
   const std::string link = link_of(front);
@@ -298,12 +291,12 @@ std::vector<Plot> motion_plots(const Results& results) {
     add(over_angle(results, "torque." + joints[i], fmt::format("Torque in {}", joints[i]) + over, "torque"));
   }
   for (const Trace& trace : front.traces->over_time) {
-    const std::string output = moved_by(*front.model, trace.of);  // "slider of press"
+    const std::string part = moved_part(*front.model, trace.of), output = part + " of " + trace.of;
     if (trace.what == quantities::position)
       add(over_time(results, trace.name, fmt::format("{} of the {}", trace.unit == "m" ? "Position" : "Angle", output),
                     trace.unit == "m" ? "position" : "angle"));
     if (trace.what == quantities::velocity)
-      add(over_time(results, trace.name, "Speed of the " + output, output.substr(0, output.find(' ')) + " speed"));
+      add(over_time(results, trace.name, "Speed of the " + output, part + " speed"));
     if (trace.what == quantities::load_torque || trace.what == quantities::force) {
       const bool is_force = trace.what == quantities::force;
       const std::string title = fmt::format("{} on the {}", is_force ? "Force" : "Load torque", output);
@@ -326,7 +319,6 @@ std::vector<Plot> drive_plots(const Results& results) {
   const auto add = [&](std::optional<Plot> plot, const std::string& note = {}) {
     if (!plot || plots.size() >= most) return;
     plot->note = note;
-    note_marks(*plot);
     plots.push_back(std::move(*plot));
   };
   const Result& front = *results.back();

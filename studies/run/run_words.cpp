@@ -84,14 +84,14 @@ std::string angle_of_link(const Result& r) {
   return find_mechanism(net, link) ? "crank angle" : "angle of " + link;
 }
 
-std::string moved_by(const Model& model, const std::string& component) {
+std::string moved_part(const Model& model, const std::string& component) {
   const Mechanism* mechanism = find_mechanism(model.network, component);
-  if (!mechanism) return "output of " + component;
+  if (!mechanism) return "output";
   const LinkageDrawing& drawing = mechanism->data.drawing();
   const bool slides = std::any_of(drawing.links.begin(), drawing.links.end(), [&](const auto& link) {
     return link.shape == "slider" && link.joints.front() == drawing.output;
   });
-  return (drawing.rocks ? "rocker of " : slides ? "slider of " : "output of ") + component;
+  return drawing.rocks ? "rocker" : slides ? "slider" : "output";
 }
 
 std::vector<std::string> notes_on_arcs(const Model& model) {

@@ -313,7 +313,8 @@ std::vector<Plot> cycle_plots(const SteadyStudy& s) {
     const double least = t.what == quantities::slip ? least_slip * last.model->speed_scale : 0;
     const bool moves = std::any_of(t.y.begin(), t.y.end(), [least](double y) { return std::abs(y) > least; });
     if (t.what == quantities::slip && moves) add(t.name, "Slip of " + t.of, "speed of one side against the other");
-    if (t.what == quantities::force && moves) add(t.name, "Force on the " + moved_by(*last.model, t.of), "force");
+    if (t.what == quantities::force && moves)
+      add(t.name, fmt::format("Force on the {} of {}", moved_part(*last.model, t.of), t.of), "force");
   }
   return plots;
 }

@@ -92,10 +92,10 @@ TEST(PlainSentences, APointThatALegMovesIsNoSlider) {
   Scene scene = test::scene_file("scenes/walking_leg.toml");
   scene.run.until = 0.1;
   const Result r = simulate(scene, scene.effects, "rigid", once());
-  EXPECT_EQ(moved_by(*r.model, "leg"), "output of leg");
+  EXPECT_EQ(moved_part(*r.model, "leg"), "output");
   scene = test::scene_file("scenes/crank_press.toml");
   scene.run.until = 0.01;
-  EXPECT_EQ(moved_by(*simulate(scene, scene.effects, "rigid", once()).model, "press"), "slider of press");
+  EXPECT_EQ(moved_part(*simulate(scene, scene.effects, "rigid", once()).model, "press"), "slider");
 }
 
 // What both have is mentioned on both sides; a tile gives the other value in its own unit.
