@@ -79,8 +79,9 @@ inline constexpr Definition of_channels_and_runs[] = {
      "", "the operating speed, where mean torques taken at constant speed balance"},
     // times, angles and works
     {"run_up_time", "run-up time", "s", "", "11.6", of_runs,
-     "from the start until the reduction link's speed enters for good the range of the last cycle widened by 1 % of "
-     "the steady speed; without a cycle steady speed ± 1 %. Of steady motion only",
+     "from the start until the reduction link's speed enters for good the range of the last cycle, widened by a "
+     "twentieth of it, but by 0.1 … 1 % of the steady speed; by 1 % if later cycles leave that range. Without a cycle "
+     "steady speed ± 1 %. Of steady motion only",
      "", "the time to 95 % of the steady speed, which is start_time"},
     {"run_down_time", "run-down time", "s", "", "2", of_runs,
      "from the moment at which the last driving source goes off for good to standstill: at rest, or below 0.1 % of the "

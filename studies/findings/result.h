@@ -95,7 +95,7 @@ struct ComponentState {
 
 // Run-up, steady motion and run-down of the reduction link; times in s. Defined in periods.h.
 struct Periods {
-  std::optional<double> run_up_end;                         // from here on within the range of the steady cycle ± 1 %
+  std::optional<double> run_up_end;                         // from here on within the range of the steady cycle
   std::optional<double> run_down_begin;                     // the last source was switched off
   std::optional<double> standstill;                         // at rest from here on
   double run_up_resolution = 0, standstill_resolution = 0;  // shift by errors of the size of the tolerance [s]

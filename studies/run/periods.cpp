@@ -11,7 +11,8 @@ namespace {
 
 constexpr double least_reported = 1e-6;  // of a speed: nearer to its limit nobody asks
 constexpr double near_steady = 0.01, at_rest = 1e-3, steady_within = 1e-3;
-constexpr double nowhere = 1e3;  // times the speed: a limit so far away is rounding
+constexpr double part_of_range = 0.05;  // the margin of a cycle's range
+constexpr double nowhere = 1e3;         // times the speed: a limit so far away is rounding
 constexpr std::size_t parts_without_cycle = 16, least_means = 3;
 // Scatter of the mid speed between cycles for a local tolerance, as a multiple of it; never more than most_noise.
 constexpr double noise_of_tolerance = 30, most_noise = 1e-5;
@@ -145,13 +146,26 @@ void judge_steadiness(const Model& model, const DrivenTime& d, double tolerance,
                                   periods.steady ? "of its limit" : "from its final value");
 }
 
+// Margins of the range of the steady motion, in the order in which they are tried: 1 % of the speed hides a run-up where
+// the speed fluctuates by no more, and a twentieth of the fluctuation is left by a motion that differs between cycles.
+std::vector<double> margins_of(const DrivenTime& d) {
+  const double speed = std::abs(d.speed), widest = near_steady * speed;
+  if (!d.last) return {widest};
+  const double narrow = part_of_range * (d.last->omega_max - d.last->omega_min);
+  return {std::clamp(narrow, steady_within * speed, widest), widest};
+}
+
 void find_run_up(const Model& model, const BandHistory& speed, const DrivenTime& d, double tolerance,
                  Periods& periods) {
-  const double margin = near_steady * std::abs(d.speed);
-  const double low = (d.last ? d.last->omega_min : d.speed) - margin;
-  const double high = (d.last ? d.last->omega_max : d.speed) + margin;
-  const std::optional<double> entry = speed.last_outside(low, high);
-  if (!entry) return;
+  double low = 0, high = 0;
+  std::optional<double> entry;
+  for (const double margin : margins_of(d)) {
+    low = (d.last ? d.last->omega_min : d.speed) - margin;
+    high = (d.last ? d.last->omega_max : d.speed) + margin;
+    entry = speed.last_outside(low, high);
+    if (!entry) return;
+    if (*entry <= (d.last ? d.last->begin : d.end)) break;
+  }
   if (*entry > (d.last ? d.last->begin : d.end)) {
     periods.steady = periods.without_limit = false;
     periods.verdict = fmt::format("{} the speed leaves its range, at {:.6g} s",

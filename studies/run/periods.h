@@ -11,9 +11,9 @@
 //               decrease of the changes (approach_of): geometric, δ_k+1 = q δ_k, with a remaining sum of q/(1 − q) of
 //               the last one. Changes that do not decrease have no limit, however small they are: a runaway, a drift.
 // steady speed  the last mid speed; without a cycle the speed at the end of the driven time. Only for steady motion.
-// run-up        ends when ω, for the rest of the driven time, stays within the range of the last cycle widened by 1 % of
-//               the steady speed (without a cycle: steady speed ± 1 %). Only for steady motion; a machine that
-//               starts within that range has no run-up.
+// run-up        ends when ω, for the rest of the driven time, stays within the range of the last cycle widened by a
+//               twentieth of it, but by 0.1 … 1 % of the steady speed; by 1 % if ω leaves that in later cycles (without a
+//               cycle: steady speed ± 1 %). Only for steady motion; a machine that starts within that range has no run-up.
 // run-down      from the end of the driven time to standstill, or to the end. The three periods and their works have the
 //               same borders everywhere (duty/work_periods.h).
 // standstill    |ω| finally stays below 0.1 % of its usual speed; or, where dry friction ends the motion, the link is held

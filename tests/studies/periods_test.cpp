@@ -11,6 +11,7 @@
 
 #include "studies/answers/motion_claims.h"
 #include "studies/answers/run_claims.h"
+#include "studies/findings/trace.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::periods_test {
@@ -155,6 +156,29 @@ run = { start = { speed = "40 rad/s" }, until = "10 s", accuracy = 1e-8 }
   EXPECT_NEAR(r.periods.steady_speed, 50, 1e-6);
   ASSERT_TRUE(r.periods.run_up_end);
   EXPECT_NEAR(*r.periods.run_up_end, 1.55, 1e-5);
+}
+
+// δ = 0.014: where ω is 1 % below the last cycle's range the run-up still lasts. After its end ω keeps to that range.
+TEST(Periods, ARunUpIsNotOverWithinTheFluctuationOfTheSteadySpeed) {
+  const Scene scene = test::scene_file("scenes/six_link_press.toml");
+  SimulateOptions options;
+  options.traces = true, options.measure_error = false;
+  const Result r = simulate(scene, scene.effects, "test", options);
+  ASSERT_TRUE(r.periods.steady) << r.periods.verdict;
+  ASSERT_TRUE(r.periods.run_up_end);
+  const Trace& speed = *r.traces->find("speed.press");
+  const CycleTraces& cycle = r.traces->last_cycles.back();
+  double low = 1e9, high = 0, least_after = 1e9, most_after = 0;
+  for (std::size_t k = 0; k < speed.x.size(); ++k) {
+    if (speed.x[k] >= cycle.begin && speed.x[k] <= cycle.end)
+      low = std::min(low, speed.y[k]), high = std::max(high, speed.y[k]);
+    if (speed.x[k] > *r.periods.run_up_end)
+      least_after = std::min(least_after, speed.y[k]), most_after = std::max(most_after, speed.y[k]);
+  }
+  const double tenth = 0.1 * (high - low);
+  EXPECT_GT(least_after, low - tenth);
+  EXPECT_LT(most_after, high + tenth);
+  EXPECT_GT(*r.periods.run_up_end, 1.3) << "the first stroke, which is deeper, belongs to the run-up";
 }
 
 // δω a cycle below 0.1 %, for a hundred cycles: 63 rad/s of 100.
