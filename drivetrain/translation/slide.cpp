@@ -24,7 +24,6 @@ namespace {
 // Whose motion and forces are reported.
 struct Slide {
   std::string name;
-  int node = 0;
   double per_radian = 1;  // [m/rad]
   double start = 0;       // [m]
 };
@@ -39,19 +38,19 @@ class SlideChannels final : public ElementPool {
         if (counts) entry.travelled = ports.own;
         return;
       }
-    entries_.push_back({slide, ports.shaft, ports.gain, {ports.id}, counts ? ports.own : -1});
+    entries_.push_back({slide, ports.node, ports.shaft, ports.gain, {ports.id}, counts ? ports.own : -1});
   }
   void add(const Instant&, Sums&) const override {}
   void register_jacobian(JacobianPattern&) override {}
   void add_jacobian(const Instant&, const double*, double*) const override {}
   void add_channels(std::vector<Channel>& channels) const override {
     for (const Entry& entry : entries_) {
-      const auto& [slide, shaft, gain, forces, travelled] = entry;
+      const auto& [slide, node, shaft, gain, forces, travelled] = entry;
       const double k = slide.per_radian, rate = k * gain, start = slide.start;
-      channels.push_back({Name::make(quantities::position, slide.name), "m",
-                          [=, node = slide.node, own = travelled](const Snapshot& s) {
-                            return start + (own < 0 ? k * s.node_angle[node] : s.now.own[own]);
-                          }});
+      channels.push_back(
+          {Name::make(quantities::position, slide.name), "m", [=, i = node, own = travelled](const Snapshot& s) {
+             return start + (own < 0 ? k * s.node_angle[i] : s.now.own[own]);
+           }});
       channels.push_back({Name::make(quantities::velocity, slide.name), "m/s",
                           [rate, i = shaft](const Snapshot& s) { return rate * s.now.speed[i]; }});
       channels.push_back({Name::make(quantities::acceleration, slide.name), "m/s2",
@@ -67,7 +66,7 @@ class SlideChannels final : public ElementPool {
  private:
   struct Entry {
     Slide slide;
-    int shaft;
+    int node, shaft;
     double gain;
     std::vector<int> forces;  // shaft elements
     int travelled = -1;       // internal state that counts it; −1: the angle does
@@ -141,7 +140,7 @@ Fields<SlideKeys> slide_fields() {
 }
 
 void put_slide(const SlideKeys& s, const std::string& name, int node, double k, Network& net) {
-  const Slide slide{name, node, k, s.start};
+  const Slide slide{name, k, s.start};
   const auto put = [&](auto element) {
     net.put(node, name, std::make_shared<ForceOnSlide>(slide, shaft_form(std::move(element))), {}, 0);
   };

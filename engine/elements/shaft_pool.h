@@ -17,6 +17,7 @@ namespace kurbel {
 struct ShaftPorts {
   int id = 0;    // index among shaft elements
   int mode = 0;  // first of its mode slots
+  int node = 0;
   int shaft = 0;
   double gain = 1;   // speed of the element's own shaft over that of the merged one
   int angle = -1;    // tracked angle

@@ -99,8 +99,10 @@ void place_on_shafts(Model& m, PoolSet& pools) {
   for (std::size_t i = 0; i < m.network.elements.size(); ++i) {
     Deadline::check();
     Network::ShaftElement& e = m.network.elements[i];
-    ShaftPorts ports{
-        .id = static_cast<int>(i), .shaft = m.shaft_of_node[at(e.node)], .gain = m.gain_of_node[at(e.node)]};
+    ShaftPorts ports{.id = static_cast<int>(i),
+                     .node = e.node,
+                     .shaft = m.shaft_of_node[at(e.node)],
+                     .gain = m.gain_of_node[at(e.node)]};
     if (e.element->is.uses_angle) {
       ports.angle = tracked(m, e.node);
       ports.phase = e.phase;

@@ -300,7 +300,6 @@ std::vector<Mechanism> linkage_forces(const Section& section, const LinkageForce
 void put_linkage_forces(const Section& section, std::vector<Mechanism> forces, Network& net) {
   const int node = net.ports.at(section.name).in;
   for (Mechanism& force : forces) {
-    force.node = node;
     limit_loads(force, section.name, node, net);
     const std::string name = force.name;
     const double phase = force.phase;

@@ -151,7 +151,7 @@ void build_mechanism(const Section& s, const MechanismData& data, const Mounting
                                               s.kind->name, s.name));
     return;
   }
-  mechanism->node = node, mechanism->phase = mounting.phase;
+  mechanism->phase = mounting.phase;
   if (!joints) joints = joints_of(data, mounting.joints);
   mechanism->joints = friction_of(data, *joints, mounting.within);
   net.data.add(s.name, std::move(*joints));

@@ -49,7 +49,6 @@ struct Mechanism {
   std::shared_ptr<MechanismBodies> bodies;  // for the independent kinetic energy
   TravelOfTurn travel;
   std::vector<SliderLoad> loads;
-  int node = 0;                                                 // of the network: its crank's
   double phase = 0;                                             // added to the shaft's angle [rad]
   std::shared_ptr<const JointFrictionSource> joints = nullptr;  // null: no friction in joints
   std::shared_ptr<const JointFriction> friction = nullptr;      // null: the effect joint friction is off

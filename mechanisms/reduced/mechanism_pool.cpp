@@ -324,7 +324,7 @@ void MechanismPool::add_channels(std::vector<Channel>& channels) const {
     if (const auto* t = m.data.as<LinkageTravelData>(); !t || t->travel.of != LinkageTravel::Of::path)
       put(quantities::position, "m", "rad", [this, i, here](const Snapshot& s) {
         const Placed& p = placed_[i];
-        const double turns = s.node_angle[p.mechanism.node] - s.now.angle[p.at.angle];  // [rad]
+        const double turns = s.node_angle[p.at.node] - s.now.angle[p.at.angle];  // [rad]
         return here(s).output_position().value + p.mechanism.travel.winding * turns;
       });
     put(quantities::velocity, "m/s", "rad/s",
