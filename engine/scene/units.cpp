@@ -78,28 +78,9 @@ class UnitParser {
   UnitParser(std::string_view text, UnitError& error) : text_(text), error_(error) {}
 
   std::optional<Unit> parse() {
-    Unit product;
-    int sign = 1;
-    skip_blanks();
-    while (at_ < text_.size()) {
-      const std::optional<Unit> factor = read_factor();
-      if (!factor) return std::nullopt;
-      product.factor *= sign > 0 ? factor->factor : 1 / factor->factor;
-      for (std::size_t i = 0; i < 5; ++i) product.dimension.exponent[i] += sign * factor->dimension.exponent[i];
-      product.counted = product.counted || factor->counted;
-      const bool blank = skip_blanks();
-      if (at_ >= text_.size()) return product;
-      if (take("/")) {
-        sign = -1;
-      } else if (take("*") || take("·") || take("⋅") || blank) {
-        sign = 1;
-      } else {
-        return fail_unexpected();
-      }
-      skip_blanks();
-      if (at_ >= text_.size()) return fail("the unit ends in an operator");
-    }
-    return product;
+    std::optional<Unit> unit = read_product();
+    if (unit && at_ < text_.size()) return fail_unexpected();  // a bracket that closes nothing
+    return unit;
   }
 
  private:
@@ -123,8 +104,45 @@ class UnitParser {
     return at_ > before;
   }
 
-  std::optional<Unit> read_factor() {
-    if (take("1")) return Unit{};
+  // Up to the end or to the bracket that closes.
+  std::optional<Unit> read_product() {
+    Unit product;
+    int sign = 1;
+    skip_blanks();
+    while (!is_end_of_product()) {
+      const std::optional<Unit> factor = read_factor();
+      if (!factor) return std::nullopt;
+      product.factor *= sign > 0 ? factor->factor : 1 / factor->factor;
+      for (std::size_t i = 0; i < 5; ++i) product.dimension.exponent[i] += sign * factor->dimension.exponent[i];
+      product.counted = product.counted || factor->counted;
+      const bool blank = skip_blanks();
+      if (is_end_of_product()) return product;
+      if (take("/")) {
+        sign = -1;
+      } else if (take("*") || take("·") || take("⋅") || blank) {
+        sign = 1;
+      } else {
+        return fail_unexpected();
+      }
+      skip_blanks();
+      if (is_end_of_product()) return fail("the unit ends in an operator");
+    }
+    return product;
+  }
+  bool is_end_of_product() const { return at_ >= text_.size() || text_[at_] == ')'; }
+
+  // "(rad/s)", without its exponent.
+  std::optional<Unit> read_bracket() {
+    const std::size_t begin = at_ - 1;
+    if (in_bracket_ || is_end_of_product()) return fail_unexpected();
+    in_bracket_ = true;
+    const std::optional<Unit> inner = read_product();
+    in_bracket_ = false;
+    if (!inner || take(")")) return inner;
+    at_ = begin;
+    return fail("a bracket is not closed");
+  }
+  std::optional<Unit> read_symbol() {
     const std::size_t begin = at_;
     while (at_ < text_.size() && !is_end_of_symbol()) ++at_;
     const std::string_view symbol = text_.substr(begin, at_ - begin);
@@ -136,9 +154,15 @@ class UnitParser {
       return fail(fmt::format("unknown unit {}{}", in_quotes(symbol),
                               near ? fmt::format(" — did you mean \"{}\"?", *near) : ""));
     }
+    unit->counted = symbol == "min" || symbol.ends_with("Hz");
+    return unit;
+  }
+  std::optional<Unit> read_factor() {
+    if (take("1")) return Unit{};
+    std::optional<Unit> unit = take("(") ? read_bracket() : read_symbol();
+    if (!unit) return std::nullopt;
     const std::optional<int> power = read_exponent();
     if (!power) return fail("an exponent must be a whole number from -9 to 9");
-    unit->counted = symbol == "min" || symbol.ends_with("Hz");
     unit->factor = std::pow(unit->factor, *power);
     for (int& e : unit->dimension.exponent) e *= *power;
     return unit;
@@ -147,8 +171,8 @@ class UnitParser {
     const std::string_view rest = text_.substr(at_);
     const char c = rest[0];
     return c == ' ' || c == '\t' || rest.starts_with("\u00a0") || rest.starts_with("\u202f") || c == '*' || c == '/' ||
-           c == '^' || c == '-' || c == '+' || (c >= '0' && c <= '9') || rest.starts_with("·") ||
-           rest.starts_with("⋅") || rest.starts_with("²") || rest.starts_with("³");
+           c == '^' || c == '-' || c == '+' || c == '(' || c == ')' || (c >= '0' && c <= '9') ||
+           rest.starts_with("·") || rest.starts_with("⋅") || rest.starts_with("²") || rest.starts_with("³");
   }
   std::optional<int> read_exponent() {
     if (take("²")) return 2;
@@ -173,9 +197,11 @@ class UnitParser {
   std::string_view text_;
   UnitError& error_;
   std::size_t at_ = 0;
+  bool in_bracket_ = false;
 };
 
 constexpr Dimension speed_dimension{{0, 0, -1, 1, 0}}, frequency_dimension{{0, 0, -1, 0, 0}};
+constexpr Dimension torque_per_current{{1, 2, -2, 0, -1}}, voltage_per_speed{{1, 2, -2, -1, -1}};
 
 // The number that the text begins with, an error if there is none.
 std::optional<double> take_number(std::string_view text, std::size_t& at, UnitError& error) {
@@ -292,6 +318,7 @@ std::optional<Quantity> parse_quantity(std::string_view text, UnitError& error) 
 }
 
 Unit wanted_as(Unit unit, const Dimension& wanted) {
+  if (wanted == torque_per_current && unit.dimension == voltage_per_speed) return {unit.factor, wanted};
   if (!unit.counted || wanted != speed_dimension || unit.dimension != frequency_dimension) return unit;
   return {2 * pi * unit.factor, wanted};
 }

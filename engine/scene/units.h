@@ -2,7 +2,8 @@
 //
 // The angle is a separate dimension: "4 kN*m" is a torque and not a torsional stiffness, "5 1/s" is not an angular velocity.
 // As is customary, frequencies per minute or in Hz given for a speed are turns: "60 1/min" is 60 rpm, "1 Hz" is 1 rev/s;
-// "1/s" could mean turns or radians and is rejected.
+// "1/s" could mean turns or radians and is rejected. A motor's constant may be a torque per current or a voltage per speed:
+// "0.9 N*m/A" = "0.9 V*s/rad".
 #pragma once
 
 #include <array>
@@ -39,14 +40,15 @@ struct UnitError {
 };
 
 // "kN*m/rad", "kg m2", "kg·m²", "N*m*s/rad", "1/s", "°", "". Factors are separated by *, · or a blank; / divides by the
-// next factor only; exponents as ^2, 2, ², ^-1.
+// next factor only, which may be a product in brackets, "N*m/(rad/s)^2"; exponents as ^2, 2, ², ^-1.
 std::optional<Unit> parse_unit(std::string_view text, UnitError& error);
 
 // "1500 rpm" → 157.08 rad/s. The number comes first, or a fraction as "1/80"; a missing unit is a dimensionless
 // quantity.
 std::optional<Quantity> parse_quantity(std::string_view text, UnitError& error);
 
-// If a speed is wanted, a frequency in Hz or per minute is converted to turns; other quantities are unchanged.
+// If a speed is wanted, a frequency in Hz or per minute is converted to turns; if a torque per current is, a voltage per speed
+// is it; other quantities are unchanged.
 Quantity wanted_as(Quantity quantity, const Dimension& wanted);
 Unit wanted_as(Unit unit, const Dimension& wanted);
 

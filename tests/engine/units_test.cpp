@@ -91,6 +91,10 @@ TEST(Units, FormsInUseHaveTheirValuesInSi) {
       {"-3/4 kg", -0.75, "kg"},
       {"1/2.5 %", 0.004, ""},
       {"1/2 1/min", 1. / 120, "Hz"},
+      {"400 N*m/(rad/s)^2", 400, "N*m*s2/rad2"},
+      {"3 W/(m² s)", 3, "kg/s3"},
+      {"2 N*m*(rad/s)^-1", 2, "N*m*s/rad"},
+      {"30 N*m/(1/min)", 1800, "N*m*s"},
   };
   for (const Example& e : examples) {
     const Quantity q = read(e.text);
@@ -123,6 +127,17 @@ TEST(Units, SpeedPerSecondLeavesOpenWhetherTurnsOrRadiansAndStaysAFrequency) {
     EXPECT_EQ(wanted_as(read(text), dimension_of("rad/s")).dimension, dimension_of("1/s")) << text;
 }
 
+// k = T/i = U/ω, equal by the balance of power.
+TEST(Units, AMotorsConstantIsATorquePerCurrentOrAVoltagePerSpeed) {
+  const Dimension constant = dimension_of("N*m/A");
+  for (const char* text : {"0.9 V*s/rad", "900 mV/(rad/s)", "0.9 N*m/A"}) {
+    EXPECT_DOUBLE_EQ(wanted_as(read(text), constant).value, 0.9) << text;
+    EXPECT_EQ(wanted_as(read(text), constant).dimension, constant) << text;
+  }
+  EXPECT_DOUBLE_EQ(wanted_as(read("2 V/rpm"), constant).value, 60 / pi);
+  EXPECT_NE(wanted_as(read("2 N*m/A"), dimension_of("V*s/rad")).dimension, dimension_of("V*s/rad"));
+}
+
 TEST(Units, FrequencyIsCountedInHertzAsBefore) {
   EXPECT_DOUBLE_EQ(wanted_as(read("5 Hz"), dimension_of("1/s")).value, 5);
   EXPECT_DOUBLE_EQ(wanted_as(read("300 1/min"), dimension_of("1/s")).value, 5);
@@ -145,6 +160,11 @@ TEST(Units, ErrorsNameTheSlip) {
   EXPECT_EQ(error_in("1/0"), "nothing can be divided by 0");
   EXPECT_EQ(error_in("1/"), "unexpected \"/\" in a unit");
   EXPECT_EQ(error_in("3 m*5"), "unexpected \"5\" in a unit");
+  EXPECT_EQ(error_in("3 N*m/(rad/s"), "a bracket is not closed");
+  EXPECT_EQ(error_in("3 N*m/(rad/)"), "the unit ends in an operator");
+  EXPECT_EQ(error_in("3 kg)"), "unexpected \")\" in a unit");
+  EXPECT_EQ(error_in("3 kg*()"), "unexpected \")\" in a unit");
+  EXPECT_EQ(error_in("3 ((kg))"), "unexpected \"(kg))\" in a unit");
   for (const char* text : {"", " ", "kg", "--3 kg", "+-3 kg", "+ 3 kg", "e5 kg", ".", "-"})
     EXPECT_EQ(error_in(text), "a number must come first") << text;
   for (const char* text : {"nan", "inf kg", "-inf kg", "infinity kg", "nan kg"})
@@ -182,10 +202,35 @@ TEST(Units, ValueTimesUnitAndBackIsTheValue) {
 
 TEST(Units, GarbageNeverCrashesAndErrorsLieWithinTheText) {
   std::mt19937 random(2);
-  const std::string pieces[] = {"1",    "9",    "-", "+", ".",   "e",   "kg",
-                                "m",    "/",    "*", "·", "²",   "^",   " ",
-                                "\t",   "°",    "µ", ",", "nan", "rad", std::string("\0", 1),
-                                "\xff", "\xc2", "(", "%", "N",   "\n"};
+  const std::string pieces[] = {"1",
+                                "9",
+                                "-",
+                                "+",
+                                ".",
+                                "e",
+                                "kg",
+                                "m",
+                                "/",
+                                "*",
+                                "·",
+                                "²",
+                                "^",
+                                " ",
+                                "(",
+                                ")",
+                                "\t",
+                                "°",
+                                "µ",
+                                ",",
+                                "nan",
+                                "rad",
+                                std::string("\0", 1),
+                                "\xff",
+                                "\xc2",
+                                "(",
+                                "%",
+                                "N",
+                                "\n"};
   std::uniform_int_distribution<std::size_t> pick(0, std::size(pieces) - 1), length(0, 12);
   for (int i = 0; i < 200'000; ++i) {
     std::string text;
