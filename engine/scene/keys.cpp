@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -113,9 +115,29 @@ std::string shortened_list(std::vector<std::string> names, std::string_view conj
   return fmt::format("{} … and {} more", listed(names, ","), more);
 }
 
+namespace {
+
+// "spring_stiffness", "dc shunt motor"
+std::set<std::string> words_in(const std::string& name) {
+  std::set<std::string> words;
+  for (std::size_t begin = 0, end = 0; begin < name.size(); begin = end + 1) {
+    end = std::min(name.find_first_of(" _-", begin), name.size());
+    if (end > begin) words.insert(name.substr(begin, end - begin));
+  }
+  return words;
+}
+
+}  // namespace
+
 std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
-  const auto near = nearest(word, names);
-  return near ? fmt::format(" — did you mean \"{}\"?", *near) : "";
+  if (const auto near = nearest(word, names)) return fmt::format(" — did you mean \"{}\"?", *near);
+  constexpr std::size_t most = 4;
+  const std::set<std::string> asked = words_in(word);
+  std::vector<std::string> holding;
+  for (const std::string& name : names)
+    if (std::ranges::includes(words_in(name), asked)) holding.push_back(name);
+  if (asked.empty() || holding.empty() || holding.size() > most) return "";
+  return fmt::format(" — did you mean {}?", listed(holding));
 }
 
 std::string listed(const std::vector<std::string>& names, std::string_view conjunction) {

@@ -165,7 +165,7 @@ struct Section {
 
 // A shortened list of names.
 std::string shortened_list(std::vector<std::string> names, std::string_view conjunction = "or");
-// " — did you mean "x"?", or empty.
+// " — did you mean "x"?", or empty: the nearest name, else those that hold all words of this one.
 std::string suggestion(const std::string& word, const std::vector<std::string>& names);
 
 // "a", "b" or "c"

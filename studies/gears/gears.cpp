@@ -59,9 +59,8 @@ Gears find_gears(const Scene& scene, const GearsOptions& options) {
                     scene.file, without_module.empty() ? "" : fmt::format(" for {}", listed(without_module, "and"))));
   std::erase_if(gears.stages, [&](const GearStage& stage) { return !wanted(stage.name, options.pair); });
   if (gears.stages.empty()) {
-    const auto near = nearest(options.pair, names);
     throw std::invalid_argument(fmt::format("--pair {}: no such pair{}; allowed: {}", in_quotes(options.pair),
-                                            near ? fmt::format(" — did you mean \"{}\"?", *near) : "", listed(names)));
+                                            suggestion(options.pair, names), listed(names)));
   }
   for (const std::string& name : without_module)
     if (wanted(name, options.pair)) gears.notes.push_back(fmt::format("{}: omitted, its module is not given.", name));
