@@ -17,7 +17,11 @@
 namespace kurbel {
 namespace {
 
-std::string in_percent(double deviation, double error) { return with_error({100 * deviation, 100 * error}, "%", 2); }
+std::string in_percent(double deviation, double error) {
+  constexpr double least = 1e-5;  // what is below it, nobody asks
+  if (deviation + error < least) return fmt::format("less than {:g} %", 100 * least);
+  return with_error({100 * deviation, 100 * error}, "%", 2);
+}
 
 constexpr std::ptrdiff_t tried_completely = 5;  // units: 2⁵ sets are run one and all
 constexpr double held_out_step = 0.2;           // loads and speeds ± 20 %

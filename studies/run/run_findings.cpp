@@ -266,6 +266,7 @@ Findings findings_of(const Result& r, const Result* rigid) {
   f.say(figures, Sentences{.lines = model_words(r), .page = false});
   f.say(figures, figures_table(r, true));
   f.say(figures, Sentences{.lines = balance_words(r), .page = false});
+  f.say(figures, Sentences{.lines = r.notes, .indent = "  note: ", .page = false});
   f.say(figures, figures_table(r, false));
   show_ratings(f, figures, r);
   show_works_of_periods(f, figures, r);

@@ -175,7 +175,6 @@ std::vector<std::string> balance_words(const Result& r) {
   if (r.complete && r.trajectory)
     lines.push_back(fmt::format("  {}{}: {}", p.steady ? "steady motion" : "no steady motion within the time simulated",
                                 of_last_cycle(r), p.verdict));
-  for (const std::string& note : r.notes) lines.push_back("  note: " + note);
   return lines;
 }
 
