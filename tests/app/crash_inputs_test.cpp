@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "tests/support/files.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::crash_inputs_test {
@@ -48,7 +49,7 @@ class CrashInputs : public testing::Test {
     EXPECT_EQ(a.code, 2) << verb << a.out << a.err;
     EXPECT_NE(a.err.find(path(name) + place), std::string::npos) << verb << a.err;
     EXPECT_NE(a.err.find(words), std::string::npos) << verb << a.err;
-    EXPECT_LT(a.seconds, 1) << verb;
+    EXPECT_LT(a.seconds, 1 * test::slower) << verb;
   }
 
   const test::ScratchFolder folder_;
@@ -70,10 +71,10 @@ TEST_F(CrashInputs, TheBudgetReachesEveryLoop) {
   for (const char* verb : {"modes", "reduce", "steady", "forces", "effects"}) {
     const Answer a = answer(verb, "modes_and_reduce_do_not_end.toml", "--set 'run.budget=1 s'");
     EXPECT_TRUE(a.code == 0 || a.code == 2 || a.code == 3) << verb << a.code;
-    EXPECT_LT(a.seconds, 10) << verb << a.err;
+    EXPECT_LT(a.seconds, 10 * test::slower) << verb << a.err;
     if (std::string(verb) == "modes" || std::string(verb) == "reduce") {
       EXPECT_EQ(a.code, 3) << verb;
-      EXPECT_LT(a.seconds, 3) << verb;
+      EXPECT_LT(a.seconds, 3 * test::slower) << verb;
       EXPECT_NE(a.err.find("the budget of 1 s of processor time is spent"), std::string::npos) << a.err;
     }
   }
@@ -83,7 +84,7 @@ TEST_F(CrashInputs, AHeavySliderOnALightCrankRunsAsFarAsItsBudget) {
   const Answer a = answer("run", "heavy_slider_without_place.toml");
   EXPECT_TRUE(a.code == 0 || a.code == 3) << a.code << a.err;
   EXPECT_EQ(a.err.find("another reduced inertia than its equations"), std::string::npos) << a.err;
-  EXPECT_LT(a.seconds, 10);
+  EXPECT_LT(a.seconds, 10 * test::slower);
 }
 
 // T = 151.492424049175 N·m at 45° and 1 rad/s: the motion that is given, whatever becomes of the other.
@@ -92,7 +93,7 @@ TEST_F(CrashInputs, ForcesOfEqualLinksEnd) {
   EXPECT_EQ(a.code, 0) << a.err;
   EXPECT_NE(a.out.find("     45         1  151.492 "), std::string::npos) << a.out;
   EXPECT_NE(a.out.find("the crank does not turn fully in the steady motion"), std::string::npos) << a.out;
-  EXPECT_LT(a.seconds, 30);
+  EXPECT_LT(a.seconds, 30 * test::slower);
 }
 
 }  // namespace
