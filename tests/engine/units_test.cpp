@@ -92,7 +92,7 @@ TEST(Units, FormsInUseHaveTheirValuesInSi) {
       {"1/2.5 %", 0.004, ""},
       {"1/2 1/min", 1. / 120, "Hz"},
       {"400 N*m/(rad/s)^2", 400, "N*m*s2/rad2"},
-      {"3 W/(m² s)", 3, "kg/s3"},
+      {"3 W/(m² s)", 3, "kg/s4"},
       {"2 N*m*(rad/s)^-1", 2, "N*m*s/rad"},
       {"30 N*m/(1/min)", 1800, "N*m*s"},
   };
