@@ -46,9 +46,21 @@ std::string begin_conclusion(const Forces& f, const ForceCycle& front) {
                      at_angle(first.peak));
 }
 
+// "peaks at 1.48 kN·m", "is less than 2100 N"
+std::string peaks(const Peak& p, const std::string& unit) {
+  return (p.error && *p.error >= std::abs(p.value) ? "is " : "peaks at ") + in_words(p, unit);
+}
+
 std::string torque_in_words(const ForceCycle& c) {
   if (is_nothing(c.torque)) return "no balancing torque is needed";
-  return fmt::format("the balancing torque peaks at {} (at {})", in_words(c.torque, "N*m"), at_angle(c.torque));
+  return fmt::format("the balancing torque {} (at {})", peaks(c.torque, "N*m"), at_angle(c.torque));
+}
+
+std::string closure_in_words(const ForceCycle& c) {
+  constexpr double shown = 1e-3;
+  if (std::abs(c.closure.value) < shown) return {};
+  return fmt::format("; the motion is not steady: over this cycle the crank's speed changes by {:+.2g} % of its mean",
+                     100 * c.closure.value);
 }
 
 // The joint with the largest force; null: reactions are not assessed.
@@ -71,7 +83,7 @@ std::string conclusion_of(const Forces& f) {
                         joint_in_words(*most), at_angle(most->peak));
   text += ", " + torque_in_words(c);
   if (!is_nothing(c.shaking_force))
-    text += fmt::format(", the shaking force peaks at {}", in_words(c.shaking_force, "N"));
+    text += ", the shaking force " + peaks(c.shaking_force, "N");
   else if (is_nothing(c.shaking_moment))
     text += ", nothing shakes the frame";
   else
@@ -83,7 +95,7 @@ std::string conclusion_of(const Forces& f) {
                                                                 with_unit(c.spent, "J", 4))
                                                   : "")
                 : fmt::format("; no efficiency of the cycle: {}", c.no_efficiency);
-  return text + ".";
+  return text + closure_in_words(c) + ".";
 }
 
 std::string signs_of(const Forces& f) {

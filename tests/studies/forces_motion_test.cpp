@@ -211,6 +211,11 @@ TEST(ForcesWithoutASteadyMotion, HaveAnErrorThatHoldsTheNextCycle) {
   ASSERT_TRUE(now.simulated && later.simulated);
   ASSERT_FALSE(now.notes.empty());
   EXPECT_NE(now.notes[0].find("counted as an error of every figure"), std::string::npos) << now.notes[0];
+  EXPECT_NE(output_of(now).conclusion().find(
+                fmt::format("the motion is not steady: over this cycle the crank's speed changes by {:+.2g} %",
+                            100 * now.simulated->closure.value)),
+            std::string::npos)
+      << output_of(now).conclusion();
   const ForceCycle &a = *now.simulated, &b = *later.simulated;
   ASSERT_GT(a.mean_speed.value - b.mean_speed.value, 0.01);
   EXPECT_LE(a.mean_speed.value - b.mean_speed.value, *a.mean_speed.error);
