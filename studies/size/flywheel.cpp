@@ -47,12 +47,12 @@ WorkDiagram work_diagram(const Piecewise& drive_torque, const Piecewise& load_to
 }
 
 WorkDiagram with_constant_drive(const Piecewise& load_torque) {
-  const double work = load_torque.total();
-  if (!(work > 1e-12 * load_torque.largest() * load_torque.length()))
+  const double work = load_torque.total(), rounding = 1e-12 * load_torque.largest() * load_torque.length();
+  if (!(work > rounding))
     throw std::invalid_argument(fmt::format(
         "the load has no net resistance: its work over a cycle is {:.6g} J; must be > 0, else nothing is to "
         "be driven and the machine runs away",
-        work));
+        work >= -rounding ? 0 : work));
   return work_diagram(load_torque.constant(work / load_torque.length()), load_torque);
 }
 

@@ -155,6 +155,8 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction, const L
     point.load_slope = (above.load - below.load) / (2 * h);
     point.beyond_data = lies_beyond_a_table(machine.model(), here.omega);
     if (!point.beyond_data) measure_errors(here, finer.at(here.omega), within, point);
+    constexpr double rounding = 1e-12;  // what a load stores it gives back
+    if (std::abs(here.load) <= rounding * here.turnover) point.torque.value = 0;
     result.points.push_back(point);
   }
   return result;

@@ -159,7 +159,7 @@ std::vector<std::string> words_of_diagram(const SteadyStudy& s) {
     words.push_back(headline(
         fmt::format("Operating point {}{} at {}, {}: dM_d/dω = {} N·m·s/rad {} dM_c/dω = {} N·m·s/rad",
                     d.estimate ? "about " : "", with_error(p.speed / d.speed_unit.size, d.speed_unit.name),
-                    with_error(p.torque, "N*m"), p.stable() ? "stable" : "unstable",
+                    p.torque.value == 0 ? "0 N·m" : with_error(p.torque, "N*m"), p.stable() ? "stable" : "unstable",
                     beside(p.drive_slope, p.load_slope), p.stable() ? "<" : "≥", beside(p.load_slope, p.drive_slope))));
   if (const OperatingPoint* p = d.working_point(); p && d.margin(*p).value > 1 + 1e-6)
     words.push_back(headline(

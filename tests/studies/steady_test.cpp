@@ -383,6 +383,19 @@ TEST(OperatingPoints, ShuntMotorMeetsAViscousLoadWhereTheLinesCross) {
   EXPECT_NEAR(d.margin(d.points[0]).value, 4, 1e-5);
 }
 
+// A weight gives back over a turn what it takes: no load speed, and no torque but rounding's.
+TEST(OperatingPoints, OfALoadThatOnlyStoresHasNoTorque) {
+  const OperatingDiagram d = diagram_of(R"(
+line = ["motor", "crank"]
+motor = { kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "40 rad/s", inertia = "1 kg*m2" }
+crank = { kind = "slider-crank", radius = "100 mm", rod = "350 mm", crank_inertia = "0.5 kg*m2", slider_mass = "3 kg", gravity = "9.81 m/s2", direction = "90 deg" }
+)");
+  ASSERT_EQ(d.points.size(), 1u);
+  EXPECT_NEAR(d.points[0].speed.value, 40, 1e-9);
+  EXPECT_EQ(d.points[0].torque.value, 0);
+  EXPECT_TRUE(std::isinf(d.margin(d.points[0]).value));
+}
+
 // Kloss: M_c/M_b = 2/(s/s_b + s_b/s) at s/s_b = q ± √(q² − 1), q = M_b/M_c: the higher speed is stable.
 TEST(OperatingPoints, InductionMotorUnderConstantLoadHasAStableAndAnUnstablePoint) {
   const double rated = 4000 / 95.0, breakdown = 3 * rated, load = 80, sb = 0.05 * (3 + std::sqrt(8.0));
