@@ -248,8 +248,8 @@ std::vector<std::string> concluded(Claims claims) {
   std::stable_sort(claims.begin(), claims.end(), [](const Claim& a, const Claim& b) {
     const auto place = [](const Claim& c) {
       const bool bad = c.is_bad();
-      // What is wrong with the machine, what else is said of it, its variants, figures.
-      const int part = !c.variant.empty() ? 2 : bad ? 0 : c.topic() < Topic::figures ? 1 : 3;
+      // What is wrong with the machine, with its variants, what else is said of it and of them, figures.
+      const int part = bad ? (c.variant.empty() ? 0 : 1) : !c.variant.empty() ? 3 : c.topic() < Topic::figures ? 2 : 4;
       return std::tuple(part, c.topic(), bad ? -static_cast<int>(c.severity()) : 0,
                         bad && c.topic() == Topic::bears ? -c.share() : 0, bad ? c.predicate : Predicate{});
     };

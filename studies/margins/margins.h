@@ -26,6 +26,7 @@ struct OperatingSpeeds {
   bool said = false;                // from [operation]
   std::string words = {};           // "of [operation]", "rated speed of motor", …
   bool known() const { return fastest > 0; }
+  bool hold(double speed) const { return speed >= slowest && speed <= fastest; }
 };
 
 // From [operation], else the requested speed, else the first motor's rated one, else the given one, else that of the start.

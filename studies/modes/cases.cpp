@@ -156,7 +156,7 @@ namespace {
 
 constexpr std::size_t curves_drawn = 6;
 
-// Over the operating speeds including that of the steady motion; NaN: the case has no such joint.
+// Over the operating speeds, of one speed at that of the steady motion; NaN: the case has no such joint.
 struct LargestAmplitude {
   double peak = std::nan(""), speed = 0;
 };
@@ -167,10 +167,11 @@ LargestAmplitude largest_amplitude(const ModesStudy& m, const std::string& joint
   const auto look = [&](const SpeedResponse& r, double speed) {
     if (j < r.joints.size() && !(r.joints[j].peak <= most.peak)) most = {r.joints[j].peak, speed};
   };
-  look(m.cycle ? *m.cycle : m.here, std::abs(m.drive.at.speed));
   const OperatingSpeeds& run = m.margins.speeds;
+  const double own = std::abs(m.drive.at.speed);
+  if (!(run.slowest < run.fastest) || run.hold(own)) look(m.cycle ? *m.cycle : m.here, own);
   for (const SpeedResponse& r : m.sweep)
-    if (r.kept && r.speed >= run.slowest && r.speed <= run.fastest) look(r, r.speed);
+    if (r.kept && run.hold(r.speed)) look(r, r.speed);
   return most;
 }
 
@@ -180,6 +181,19 @@ std::vector<std::pair<std::string, const ModesStudy*>> variants_of(const ModesSt
   for (const ModesCase& one : m.cases)
     if (one.study) all.emplace_back(one.name, one.study.get());
   return all;
+}
+
+// "54.92 … 65.29 (intermediate_shaft), within the operating speeds"
+std::string barred_text(const ModesStudy& of) {
+  std::string text;
+  const OperatingSpeeds& run = of.margins.speeds;
+  for (const BarredRange& b : of.barred)
+    if (b.by != BarredRange::By::sign)
+      text +=
+          fmt::format("{}{:.4g} … {:.4g} ({}){}", text.empty() ? "" : "; ", of.speed_unit.of(b.from),
+                      of.speed_unit.of(b.to), of.limited[b.joint].name,
+                      run.known() && b.from < run.fastest && b.to > run.slowest ? ", within the operating speeds" : "");
+  return text.empty() ? "none" : text;
 }
 
 Rows case_table(const ModesStudy& m) {
@@ -197,7 +211,7 @@ Rows case_table(const ModesStudy& m) {
                       row.within ? "WITHIN" : "kept");
     }
     const std::string limits = sentence_of(of.verdicts, "limit");
-    lines.push_back({name, settings, fmt::format("{}", fmt::join(hertz_of, ", ")), nearest,
+    lines.push_back({name, settings, fmt::format("{}", fmt::join(hertz_of, ", ")), nearest, barred_text(of),
                      limits.empty() ? "no limits are given" : capitalised(limits)});
   };
   add("as it is", "", m);
@@ -206,11 +220,13 @@ Rows case_table(const ModesStudy& m) {
     if (one.study)
       add(one.name, settings, *one.study);
     else
-      lines.push_back({one.name, settings, "not assessed", "", one.why});
+      lines.push_back({one.name, settings, "not assessed", "", "", one.why});
   }
-  Rows table = words_table("Cases: the same drive as something has failed",
-                           {"case", "set", "first natural frequencies [Hz]", "nearest margin", "limits"}, lines);
-  table.heading = "cases", table.text_columns = table.text_columns_on_terminal = 5;
+  Rows table = words_table("Cases: the same drive with a failure",
+                           {"case", "set", "first natural frequencies [Hz]", "nearest margin",
+                            fmt::format("barred [{}]", m.speed_unit.name), "limits"},
+                           lines);
+  table.heading = "cases", table.text_columns = table.text_columns_on_terminal = 6;
   return table;
 }
 
@@ -253,12 +269,13 @@ std::optional<Plot> case_plot(const ModesStudy& m, std::size_t joint) {
   return in_readable_unit(std::move(plot), "N*m");
 }
 
-// Faults in a case that the unchanged drive does not have.
+// Faults in a case that the unchanged drive does not have, of a component one.
 void claim_case(Findings& f, const ModesCase& one) {
   Claims claims = findings_of(*one.study).claims;
   for (Claim& claim : claims) {
     const bool known = std::any_of(f.claims.begin(), f.claims.end(), [&](const Claim& other) {
-      return other.predicate == claim.predicate && other.of == claim.of && other.load_case == claim.load_case;
+      return other.predicate == claim.predicate && other.of == claim.of &&
+             (other.variant == one.name || other.load_case == claim.load_case);
     });
     if (known || !claim.is_bad() || !claim.in_conclusion) continue;
     claim.text = fmt::format("In the case {}: {}", in_quotes(one.name), claim.text);

@@ -160,7 +160,8 @@ std::vector<double> sweep_speeds(ModesStudy& found) {
       speeds.push_back(damped * factor);
     speeds.push_back(c.speed);
   }
-  speeds.push_back(std::abs(found.drive.at.speed));
+  for (const double own : {std::abs(found.drive.at.speed), found.margins.speeds.slowest, found.margins.speeds.fastest})
+    speeds.push_back(own);
   std::sort(speeds.begin(), speeds.end());
   std::erase_if(speeds, [&](double w) { return w < found.slowest || w > found.fastest; });
   const auto same = [](double a, double b) { return b - a <= 1e-9 * b; };  // but for rounding
@@ -240,7 +241,7 @@ void omit_speeds_not_held(ModesStudy& found) {
   found.critical.erase(kept, found.critical.end());
   const std::size_t gone = found.not_kept.size();
   found.notes.push_back(fmt::format(
-      "at {} the machine cannot run continuously: small deviations grow (a motor beyond its breakdown), or the speed "
+      "at {} the machine cannot run continuously: small deviations grow, or the speed "
       "would fluctuate by more than its mean; {}barred ranges there and spot checks are omitted. Passing these speeds "
       "during run-up is judged by the start",
       where, gone > 0 ? fmt::format("{} critical speed{} (with the margins), ", gone, gone == 1 ? "" : "s") : ""));

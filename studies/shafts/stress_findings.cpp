@@ -75,7 +75,7 @@ Rows peak_table(const ShaftStresses& s, const char* key, const char* title, cons
               [](const std::string& m) { return m.empty() ? std::string("none") : m; })
       .column("order", "of", &StressPeak::order,
               [](double order) { return order > 0 ? fmt::format("order {:.4g}", order) : std::string("all orders"); })
-      .column("stress", "largest amplitude [MPa]", &StressPeak::stress, stress)
+      .column("stress", "amplitude [MPa]", &StressPeak::stress, stress)
       .column("speed", fmt::format("at [{}]", unit.name), &StressPeak::speed, speed)
       .column("allowed", "allowed there [MPa]", &StressPeak::allowed, stress)
       .only_for_people("use", [&s](const StressPeak& p) { return use_text(s, p); });
@@ -135,15 +135,16 @@ Plot stress_plot(const ShaftStresses& s, std::size_t j, const std::vector<Stress
   return plot;
 }
 
-}  // namespace
-
-std::optional<Claim> stress_claim(const ShaftStresses& s) {
-  if (!s.any()) return {};
-  const std::vector<std::size_t> shafts = judged_shafts(s.joints);
-  const std::vector<StressPeak> peaks = stress_peaks(s.joints, s.normal), other = misfire_peaks(s);
+// On the highest utilisation of some shafts; empty: nothing to report.
+std::optional<Claim> claim_on(const ShaftStresses& s, const std::vector<std::size_t>& shafts,
+                              const std::vector<StressPeak>& peaks, const std::vector<StressPeak>& other) {
   const StressPeak* worst = worst_of_all(peaks, shafts);
   if (!worst || !(worst->stress > 0)) return {};
-  std::string text = fmt::format("vibratory stress {}in \"{}\": {}", shafts.size() > 1 ? "is greatest " : "",
+  const bool limited = std::isfinite(worst->allowed);
+  std::string text = fmt::format("vibratory stress {}in \"{}\": {}",
+                                 shafts.size() == 1 ? ""
+                                 : limited          ? "takes the largest share of its limit "
+                                                    : "is greatest ",
                                  worst->shaft, peak_text(*worst, s.unit) + passed_text(s, *worst));
   if (const StressPeak* m = worst_of_all(other, shafts))
     text += fmt::format("; with {} misfiring {}{}", m->misfires,
@@ -153,6 +154,7 @@ std::optional<Claim> stress_claim(const ShaftStresses& s) {
   double use = 0;
   for (const auto* list : {&peaks, &other})
     for (const StressPeak& p : *list) {
+      if (std::find(shafts.begin(), shafts.end(), p.joint) == shafts.end()) continue;
       const double passing = use_in_passing(s, p).value_or(HUGE_VAL), used = passing <= 1 ? passing : p.use();
       if (used > use) use = used, most = &p;
     }
@@ -165,6 +167,21 @@ std::optional<Claim> stress_claim(const ShaftStresses& s) {
               judged ? Evidence{.value = most->stress, .limit = most->stress / use, .unit = "Pa"} : Evidence{});
   if (claim) claim->load_case = most->misfires.empty() ? load_case::speed_range : "misfire of " + most->misfires;
   return claim;
+}
+
+}  // namespace
+
+Claims stress_claims(const ShaftStresses& s) {
+  Claims claims;
+  if (!s.any()) return claims;
+  const std::vector<std::size_t> shafts = judged_shafts(s.joints);
+  const std::vector<StressPeak> peaks = stress_peaks(s.joints, s.normal), other = misfire_peaks(s);
+  const std::optional<Claim> worst = claim_on(s, shafts, peaks, other);
+  add(claims, worst);
+  for (const std::size_t j : shafts)
+    if (std::optional<Claim> of = claim_on(s, {j}, peaks, other); of && of->is_bad() && of->of != worst->of)
+      add(claims, std::move(of));
+  return claims;
 }
 
 Rows stress_table(const ShaftStresses& s) {
@@ -183,9 +200,13 @@ Rows stress_table(const ShaftStresses& s) {
 }
 
 Rows misfire_table(const ShaftStresses& s) {
-  Rows table =
-      peak_table(s, "misfires", "Vibratory stress of shafts with one cylinder misfiring", "", misfire_peaks(s));
-  table.terminal = false;
+  std::vector<StressPeak> peaks = misfire_peaks(s);
+  std::vector<std::size_t> worst;
+  for (const std::size_t j : judged_shafts(s.joints))
+    if (const StressPeak* p = worst_sum(peaks, j)) worst.push_back(static_cast<std::size_t>(p - peaks.data()));
+  Rows table = peak_table(s, "misfires", "Vibratory stress of shafts with one cylinder misfiring, the worst of all", "",
+                          std::move(peaks));
+  table.terminal = false, table.for_people = std::move(worst);
   return table;
 }
 

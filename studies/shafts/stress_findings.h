@@ -1,7 +1,6 @@
 // stress_findings.h — findings on stresses: leading sentence, tables, curves.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "studies/claims/claim.h"
@@ -12,9 +11,9 @@
 
 namespace kurbel {
 
-// "vibratory stress of shafts: the worst propeller_shaft, 38.2 MPa at 92 rpm, 87 % of the limit there; as cylinder3
-// misfires 44.1 MPa at 92 rpm, 101 %: it EXCEEDS that", for the highest utilisation; empty: nothing to report.
-std::optional<Claim> stress_claim(const ShaftStresses& s);
+// On the highest utilisation, then on every other shaft whose limit is exceeded: "vibratory stress in "crank_end": 104 MPa at
+// 59.94 rpm, 231 % of the limit for continuous running"; empty: nothing to report.
+Claims stress_claims(const ShaftStresses& s);
 
 Rows stress_table(const ShaftStresses& s);   // for every shaft the sum and its orders
 Rows misfire_table(const ShaftStresses& s);  // for every shaft and misfiring cylinder
