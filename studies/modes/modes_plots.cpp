@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "engine/numerics/index.h"
 #include "engine/scene/text.h"
@@ -56,10 +57,99 @@ std::vector<char> held_by_springs(const LinearDrive& drive) {
   return held;
 }
 
+// Coordinates from one end of the drive to the others, joint by joint, short branches first.
+class AlongTheDrive {
+ public:
+  explicit AlongTheDrive(const LinearDrive& drive) : next_(static_cast<std::size_t>(drive.size())) {
+    for (Eigen::Index j = 0; j < drive.twists.outerSize(); ++j) {
+      std::vector<std::size_t> ends;
+      for (SparseRows::InnerIterator it(drive.twists, j); it; ++it)
+        if (it.value() != 0) ends.push_back(static_cast<std::size_t>(it.col()));
+      for (const std::size_t a : ends)
+        for (const std::size_t b : ends)
+          if (a != b) next_[a].push_back(b);
+    }
+    for (const std::size_t most : {std::size_t{1}, next_.size()})  // ends first
+      for (std::size_t c = 0; c < next_.size(); ++c)
+        if (next_[c].size() <= most) visit(c);
+  }
+  // Of each coordinate.
+  std::vector<std::size_t> places() const {
+    std::vector<std::size_t> places(order_.size());
+    for (std::size_t i = 0; i < order_.size(); ++i) places[order_[i]] = i;
+    return places;
+  }
+
+ private:
+  void visit(std::size_t begin) {
+    std::vector<std::size_t> left = {begin};
+    while (!left.empty()) {
+      const std::size_t c = left.back();
+      left.pop_back();
+      if (!seen_.insert(c).second) continue;
+      order_.push_back(c);
+      std::vector<std::pair<std::size_t, std::size_t>> further;  // by what lies behind each
+      for (const std::size_t to : next_[c])
+        if (!seen_.contains(to)) further.emplace_back(0, to);
+      if (further.size() > 1)
+        for (auto& [size, to] : further) size = behind(to);
+      std::sort(further.rbegin(), further.rend());
+      for (const auto& [size, to] : further) left.push_back(to);
+    }
+  }
+  std::size_t behind(std::size_t begin) const {
+    std::set<std::size_t> found = seen_;
+    std::vector<std::size_t> left = {begin};
+    while (!left.empty()) {
+      const std::size_t c = left.back();
+      left.pop_back();
+      if (found.insert(c).second) left.insert(left.end(), next_[c].begin(), next_[c].end());
+    }
+    return found.size() - seen_.size();
+  }
+
+  std::vector<std::vector<std::size_t>> next_;
+  std::vector<std::size_t> order_;
+  std::set<std::size_t> seen_;
+};
+
+// Shafts and joints in the order in which they stand along the drive.
+struct DriveOrder {
+  std::vector<std::size_t> shafts, joints;
+};
+DriveOrder along_the_drive(const ModesStudy& m) {
+  const std::vector<std::size_t> place = AlongTheDrive(m.drive).places();
+  std::vector<double> of_shaft(m.shaft_names.size()), of_joint(m.joint_names.size());
+  const auto mean_place = [&](auto entry) {
+    double sum = 0, count = 0;
+    for (; entry; ++entry)
+      if (entry.value() != 0) sum += static_cast<double>(place[static_cast<std::size_t>(entry.col())]), count += 1;
+    return count > 0 ? sum / count : static_cast<double>(place.size());
+  };
+  const SparseRows motion = m.drive.motion;
+  for (std::size_t i = 0; i < of_shaft.size(); ++i)
+    of_shaft[i] = mean_place(SparseRows::InnerIterator(motion, static_cast<Eigen::Index>(i)));
+  for (std::size_t j = 0; j < of_joint.size(); ++j)
+    of_joint[j] = mean_place(SparseRows::InnerIterator(m.drive.twists, static_cast<Eigen::Index>(j)));
+  const auto ordered = [](const std::vector<double>& places) {
+    std::vector<std::size_t> order = numbers_below(places.size());
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return places[a] < places[b]; });
+    return order;
+  };
+  return {ordered(of_shaft), ordered(of_joint)};
+}
+std::vector<std::string> names_in(const std::vector<std::string>& names, const std::vector<std::size_t>& order) {
+  std::vector<std::string> ordered;
+  for (const std::size_t i : order) ordered.push_back(names[i]);
+  return ordered;
+}
+
 // Amplitudes reduced to the reduction link, so that a rigid motion is a horizontal line.
 Plot shape_plot(const ModesStudy& m) {
+  const std::vector<std::size_t> order = along_the_drive(m).shafts;
+  const std::vector<std::string> names = names_in(m.shaft_names, order);
   Plot plot{.title = "Mode shapes along the drive, reduced to one shaft",
-            .x = axis_of("shaft", m.shaft_names),
+            .x = axis_of("shaft", names),
             .y = {"relative amplitude", ""},
             .wide = m.shaft_names.size() > 8};
   const std::vector<char> held = held_by_springs(m.drive);
@@ -70,17 +160,18 @@ Plot shape_plot(const ModesStudy& m) {
     const Eigen::VectorXd shape = shaft_shape(m, m.modes[k]);
     s.points = shape.size() <= 60;
     double largest = 0;
-    for (Eigen::Index i = 0; i < shape.size(); ++i) {
-      if (!held[static_cast<std::size_t>(i)]) continue;
-      const double ratio = m.drive.ratio[static_cast<std::size_t>(i)];
-      s.add(static_cast<double>(i + 1), ratio != 0 ? shape[i] / ratio : shape[i]);
+    for (std::size_t n = 0; n < order.size(); ++n) {
+      const std::size_t i = order[n];
+      if (!held[i]) continue;
+      const double ratio = m.drive.ratio[i], amplitude = shape[static_cast<Eigen::Index>(i)];
+      s.add(static_cast<double>(n + 1), ratio != 0 ? amplitude / ratio : amplitude);
       if (std::abs(s.y.back()) > std::abs(largest)) largest = s.y.back();
     }
     if (largest == 0) continue;  // only what no spring holds moves in it
     for (double& y : s.y) y /= largest;
     plot.series.push_back(std::move(s));
   }
-  if (plot.x.names.empty()) plot.note = numbered(m.shaft_names, "Shafts: ") + ", …";
+  if (plot.x.names.empty()) plot.note = numbered(names, "Shafts: ") + ", …";
   for (std::size_t i = 0; i < held.size() && i < m.shaft_names.size(); ++i)
     if (!held[i])
       plot.note += fmt::format("{}No spring holds {}: omitted.", plot.note.empty() ? "" : " ", m.shaft_names[i]);
@@ -88,14 +179,18 @@ Plot shape_plot(const ModesStudy& m) {
 }
 
 Plot energy_plot(const ModesStudy& m, bool kinetic) {
-  Plot plot{.title = kinetic ? "Where the kinetic energy of each mode sits" : "Which elastic element each mode twists",
-            .x = axis_of(kinetic ? "shaft" : "elastic element", kinetic ? m.shaft_names : m.joint_names),
-            .y = {"share of the energy", "%"},
-            .bars = true};
+  const DriveOrder along = along_the_drive(m);
+  const std::vector<std::size_t>& order = kinetic ? along.shafts : along.joints;
+  Plot plot{
+      .title = kinetic ? "Where the kinetic energy of each mode sits" : "Which elastic element each mode twists",
+      .x = axis_of(kinetic ? "shaft" : "elastic element", names_in(kinetic ? m.shaft_names : m.joint_names, order)),
+      .y = {"share of the energy", "%"},
+      .bars = true};
   for (std::size_t k = 0; k < m.modes.size() && k < shapes_shown; ++k) {
     Series s{.name = fmt::format("mode {}", m.modes[k].number), .role = further_role(k)};
     const std::vector<double>& share = kinetic ? m.modes[k].shares.shaft : m.modes[k].shares.joint;
-    for (std::size_t i = 0; i < share.size() && i < 200; ++i) s.add(static_cast<double>(i + 1), 100 * share[i]);
+    for (std::size_t n = 0; n < std::min(order.size(), share.size()) && n < 200; ++n)
+      s.add(static_cast<double>(n + 1), 100 * share[order[n]]);
     plot.series.push_back(std::move(s));
   }
   return plot;
@@ -138,7 +233,7 @@ Plot sweep_plot(const ModesStudy& m, std::size_t j) {
   if (most <= far * sum)
     plot.series.push_back(std::move(mean));
   else
-    plot.note = fmt::format("The mean torque, up to {}, lies above.", torque_text(most));
+    plot.note = fmt::format("The mean torque, up to {}, is not drawn.", torque_text(most));
   if (!m.rigid.empty()) plot.series.insert(plot.series.begin(), rigid_curve(m, j));
   mark_spots(m, j, plot);
   if (const DriveLimits& limits = m.limited[j].limits; limits.vibratory > 0 && !finite.empty()) {

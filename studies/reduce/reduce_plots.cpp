@@ -41,7 +41,8 @@ Plot harmonics_plot(const Spectrum& s, const std::string& link) {
   return in_readable_unit(std::move(plot), s.unit);
 }
 
-// Position of an inertia in the drawing: compliance from the first one along the x-axis, branches below each other.
+// Position of an inertia in the drawing: compliance from the first one along the x-axis, branches below each other, last
+// what dampers alone hold.
 struct Place {
   double x = 0;
   int row = 0;
@@ -52,16 +53,19 @@ std::vector<Place> places_of(const Chain& chain) {
   std::vector<int> branches(chain.inertias.size(), 0);
   int rows = 1;
   if (!placed.empty()) placed[0] = 1;
-  for (bool grown = true; grown;) {
-    grown = false;
+  const auto grow = [&](bool by_springs) {
+    bool grown = false;
     for (const ChainSpring& s : chain.springs) {
-      if (placed[s.a] == placed[s.b]) continue;
+      if (placed[s.a] == placed[s.b] || by_springs != (s.reduced_stiffness > 0)) continue;
       const std::size_t from = placed[s.a] ? s.a : s.b, to = placed[s.a] ? s.b : s.a;
-      places[to] = {places[from].x + (s.reduced_stiffness > 0 ? 1 / s.reduced_stiffness : 0.0),
-                    branches[from]++ == 0 ? places[from].row : rows++};
+      places[to] = {places[from].x + (by_springs ? 1 / s.reduced_stiffness : 0.0),
+                    by_springs && branches[from]++ == 0 ? places[from].row : rows++};
       placed[to] = 1;
       grown = true;
     }
+    return grown;
+  };
+  while (grow(true) || grow(false)) {
   }
   return places;
 }
@@ -165,28 +169,37 @@ std::vector<Plot> path_plots(const MachineReduction& r) {
 Plot chain_plot(const Chain& chain) {
   const std::vector<Place> places = places_of(chain);
   double largest = 0, length = 0;
+  int rows = 0;
   for (const ChainInertia& i : chain.inertias) largest = std::max(largest, i.reduced);
-  for (const Place& p : places) length = std::max(length, p.x);
+  for (const Place& p : places) length = std::max(length, p.x), rows = std::max(rows, p.row + 1);
   if (length == 0) length = 1e-6;
   Plot plot{.title = "The elastic chain: discs are inertias, distances are compliances",
             .x = {"compliance from the first inertia", "µrad/(N·m)"},
-            .y = {"∛(J/J_max)", ""},
+            .y = {"", ""},
             .note = "Height of a disc: cube root of its reduced inertia. The table names what is on each."};
+  for (int row = rows - 1; row > 0; --row) plot.y.names.push_back(fmt::format("branch {}", row));
+  plot.y.names.emplace_back("main line");
+  const auto height_of = [rows](const Place& p) { return static_cast<double>(rows - p.row); };
   for (const ChainSpring& s : chain.springs) {
     const Place a = places[s.a], b = places[s.b];
-    plot.series.push_back({.name = fmt::format("{}: k = {}", s.name, short_text(s.reduced_stiffness, "N*m/rad")),
+    const bool spring = s.reduced_stiffness > 0;
+    plot.series.push_back({.name = spring
+                                       ? fmt::format("{}: k = {}", s.name, short_text(s.reduced_stiffness, "N*m/rad"))
+                                       : fmt::format("{}: c = {}", s.name, short_text(s.reduced_damping, "N*m*s/rad")),
                            .role = Role::elastic,
                            .x = {1e6 * a.x, 1e6 * b.x},
-                           .y = {-2.5 * a.row, -2.5 * b.row}});
+                           .y = {height_of(a), height_of(b)},
+                           .dashed = !spring});
   }
   for (std::size_t k = 0; k < chain.inertias.size(); ++k) {
     const ChainInertia& i = chain.inertias[k];
-    const double height = largest > 0 ? std::max(0.05, std::cbrt(i.reduced / largest)) : 1, width = 4e3 * length,
-                 x = 1e6 * places[k].x, y = -2.5 * places[k].row;
+    const double height = 0.4 * (largest > 0 ? std::max(0.05, std::cbrt(i.reduced / largest)) : 1),
+                 width = 4e3 * length, x = 1e6 * places[k].x, y = height_of(places[k]);
     plot.series.push_back({.name = fmt::format("J{} = {:.4g} kg·m²", k + 1, i.reduced),
                            .role = further_role(k),
                            .x = {x - width, x + width, x + width, x - width, x - width},
-                           .y = {y - height, y - height, y + height, y + height, y - height}});
+                           .y = {y + height, y + height, y - height, y - height, y + height},
+                           .text_at_start = fmt::format("J{}", k + 1)});
   }
   return plot;
 }

@@ -141,11 +141,13 @@
       hovertemplate: `${plot.x.label} %{x:.4~g} ${plot.x.unit}<br>${plot.y.label} %{y:.4~g} ${plot.y.unit}<br>%{text}<extra></extra>`,
     };
   }
-  // Where a curve in front swings so often that it fills a plane, what stands behind is traced thinly upon it.
+  // Where a curve in front swings so often that it fills a plane, what stands behind and swings less far is traced thinly
+  // upon it.
   function againOnTop(plot) {
     const turns = s => s.y.reduce((sum, y, i) => sum + (i > 1 && (y - s.y[i - 1]) * (s.y[i - 1] - s.y[i - 2]) < 0 ? 1 : 0), 0);
-    if (!plot.series.some(s => !s.behind && s.line && !saysItself(s) && turns(s) > 120)) return [];
-    return plot.series.filter(s => s.behind).flatMap(s => [['card', 2.6], ['rigid', 1.4]].map(([name, width]) => (
+    const swing = s => { const late = s.y.slice(s.y.length >> 1); return Math.max(...late) - Math.min(...late); };
+    const planes = plot.series.filter(s => !s.behind && s.line && !saysItself(s) && turns(s) > 120);
+    return plot.series.filter(s => s.behind && planes.some(plane => swing(s) < swing(plane))).flatMap(s => [['card', 2.6], ['rigid', 1.4]].map(([name, width]) => (
       {x: s.x, y: s.y, type: 'scatter', mode: 'lines', line: {color: colour(name), width}, showlegend: false, hoverinfo: 'skip'})));
   }
   // The greatest magnitude of each curve that runs over time or speed, where there are few of them.
@@ -501,7 +503,7 @@
     const kind = column => kinds[column];
     table.columns.forEach((text, i) => write(text, make('th', kind(i), '', head), true));
     const body = make('tbody', '', null, element), printed = table.rows.length > 100 ? 60 : Infinity;
-    if (table.rows.length > printed) make('p', 'note on-paper', `The first ${printed} of ${table.rows.length} rows; the page has all.`, card);
+    if (table.rows.length > printed) make('p', 'note on-paper', `The first ${printed} rows; the page has more.`, card);
     table.rows.forEach((row, r) => {
       const line = make('tr', r < printed ? '' : 'off-paper', null, body);
       row.forEach((text, i) => {

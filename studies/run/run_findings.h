@@ -65,7 +65,7 @@ inline constexpr std::size_t most_torque_plots = 8;
 
 // Whether there are traces of a machine that moved.
 bool drawable(const Results& results);
-// Couplings by the size of their peak torque, the largest first.
+// Couplings by the size of their peak torque, the largest first; of a shaft that is divided the place with the largest.
 std::vector<std::string> couplings(const Result& result);
 
 MachineView machine_view(const Results& results);

@@ -1,4 +1,5 @@
 // run_plots.cpp — speeds, torques, motion of the mechanism and energies over time and over the crank's angle.
+#include "engine/numerics/index.h"
 #include "studies/run/compare.h"
 #include "studies/run/run_findings.h"
 
@@ -258,15 +259,18 @@ bool drawable(const Results& results) {
 }
 
 std::vector<std::string> couplings(const Result& r) {
-  std::vector<std::pair<double, std::string>> sorted;
+  std::vector<std::pair<double, const TorqueJoint*>> sorted;
   for (const TorqueJoint& joint : r.model->torque_joints) {
     const Figure* peak = r.find(quantities::peak_torque, joint.component);
-    if (r.traces->find("torque." + joint.component))
-      sorted.emplace_back(peak ? -std::abs(peak->value) : 0, joint.component);
+    if (r.traces->find("torque." + joint.component)) sorted.emplace_back(peak ? -std::abs(peak->value) : 0, &joint);
   }
   std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> names;
-  for (const auto& [peak, name] : sorted) names.push_back(name);
+  std::set<std::string> shafts;  // that are divided: the place with the largest torque
+  for (const auto& [peak, joint] : sorted) {
+    const Network::Joint& of = r.model->network.joints[at(joint->joint)];
+    if ((of.chain < 0 && !of.reported) || shafts.insert(of.component).second) names.push_back(joint->component);
+  }
   return names;
 }
 
