@@ -95,7 +95,7 @@ constexpr std::array kinds = {
               "grows tenfold in 0.07 s. Start it at another angle",
               "run, compare, steady"},
     ClaimKind{runs_steadily, runs, note, anything,
-              "the mid speed of the cycle is within 0.1 % of its limit, extrapolated from at least three cycles "
+              "the mid speed of the cycle is within 0.1 % of its final value, extrapolated from at least three cycles "
               "without a command, and the link does not stand within the cycle",
               "at: end of the run-up; value: mean speed [rad/s]",
               "\"press\" runs steadily at 59.77 rpm from 0.9627 s on", "run, compare, steady"},

@@ -81,6 +81,22 @@ inline constexpr PageWord of_pages[] = {
      "of a four-bar: the shortest link turns fully where shortest and longest together are less than the two others "
      "(theory 9)"},
     {"note", of_all, "on this row alone"},
+    {"UR M68; UR M68, *", of_trains,
+     "rule of the classification societies on torsional vibration of propulsion shafts: permissible stresses τ_C for "
+     "continuous running and τ_T in passing, and barred ranges of speed around a resonance (theory 12.16)"},
+    {"resonance passed", of_trains, "load case: a critical speed below the operating speeds, passed at each start"},
+    {"kept; WITHIN; not kept; within the margin", of_trains,
+     "separation margin: kept if the excitation stays farther from the natural frequency than is required"},
+    {"spot check; spot checks; spot check at *", of_trains,
+     "the linear response compared with a cycle of the full nonlinear equations whose mean speed is held"},
+    {"periodic system; exponents of the periodic system", of_trains,
+     "equations linearised about a cycle, whose coefficients change within it: Floquet's exponents (theory 12.3)"},
+    {"internal states; states of *; torques that follow speeds", of_trains,
+     "damping or energy of a mode in quantities other than angles and speeds of shafts (currents, lagging torques), or "
+     "in torques of motors and loads that depend on speed"},
+    {"severity; stability", of_trains,
+     "severity: the largest torque where an excitation meets a mode, and its share of the limit; stability: whether "
+     "small deviations from the motion decay"},
     {"component; element; part; joint; shaft; link; elastic element; line; point", of_all,
      "name of the scene's part, of a link of its mechanism, of an account of work, or of a point of the path of "
      "contact"},
@@ -191,7 +207,7 @@ inline constexpr PageWord of_pages[] = {
     {"in the cycle; in the steady motion; linear − cycle; linear − steady motion; in the nonlinear cycle; linear drive",
      of_trains, "the linear response beside the same of the nonlinear cycle, and the difference of both"},
     {"limit; limit there; limits; use; requirement; load case; load; factors; of the standard; share of the limit; "
-     "allowed there; allowed at *; allowed by its manufacturer; barred because of",
+     "allowed there; allowed at *; allowed by its manufacturer; barred because of; barred; barred [*]",
      "run, modes, report",
      "a component's limit, the load of the load case with its factors, and use = load over limit; barred: range of "
      "speeds "

@@ -393,21 +393,6 @@ void say_shaking(Findings& to, Chapter in, const Forces& f) {
 
 }  // namespace
 
-bool is_nothing(const Peak& p) {
-  constexpr double negligible = 1e-6;
-  return std::abs(p.value) <= p.error.value_or(0) && p.error.value_or(0) <= negligible * p.scale;
-}
-
-std::string in_words(const Peak& p, const std::string& si_unit) {
-  const ReadableUnit unit = readable_unit(p.value, si_unit);
-  if (std::abs(p.value) <= p.error.value_or(0) &&
-      !is_nothing(p))  // not distinguished from zero: alone it would say too much
-    return with_error(unit.factor * p, unit.unit);
-  return fmt::format("{:.4g} {}", unit.factor * p.value, unit.unit);
-}
-
-double or_zero(double value, double largest) { return std::abs(value) < 1e-12 * std::abs(largest) ? 0.0 : value; }
-
 std::vector<NamedPeak> peaks_of(const Forces& f, const ForceCycle& c) {
   std::vector<NamedPeak> peaks;
   for (const NamedPeak& r : c.reactions) {

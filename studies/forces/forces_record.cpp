@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "studies/findings/figure_text.h"
 #include "studies/forces/forces_findings.h"
 
 namespace kurbel {
@@ -103,6 +105,21 @@ std::string heading_of(const std::vector<JointForces>& joints, const JointForces
   const auto alike = std::count_if(joints.begin(), joints.end(), [&](const JointForces& o) { return name == o.name; });
   return alike > 1 ? fmt::format("{}: {} on {}", name, j.from, j.on) : name;
 }
+
+bool is_nothing(const Peak& p) {
+  constexpr double negligible = 1e-6;
+  return std::abs(p.value) <= p.error.value_or(0) && p.error.value_or(0) <= negligible * p.scale;
+}
+
+std::string in_words(const Peak& p, const std::string& si_unit) {
+  const ReadableUnit unit = readable_unit(p.value, si_unit);
+  if (std::abs(p.value) <= p.error.value_or(0) &&
+      !is_nothing(p))  // not distinguished from zero: alone it would say too much
+    return with_error(unit.factor * p, unit.unit);
+  return fmt::format("{:.4g} {}", unit.factor * p.value, unit.unit);
+}
+
+double or_zero(double value, double largest) { return std::abs(value) < 1e-12 * std::abs(largest) ? 0.0 : value; }
 
 std::string joint_in_words(const NamedPeak& reaction) {
   const char* const article = reaction.joint.starts_with("pin ") ? "" : "the ";

@@ -119,7 +119,7 @@ void find_response(const std::vector<CrossingResponse>& responses, double slowes
     if (r.mode == mode.number && same_line) row.response = r;
   }
   row.not_assessed = row.response                              ? row.response->not_assessed
-                     : !line.in_scene                          ? "the scene has no such torque"
+                     : !line.in_scene                          ? "the scene as it is has no such torque"
                      : !(mode.ratio < 1)                       ? "the mode is damped away"
                      : row.crossing && *row.crossing < slowest ? "below the speeds examined"
                      : row.crossing && *row.crossing > fastest ? "above the speeds examined"

@@ -52,6 +52,13 @@ std::string severity_text(const Margin& row) {
   return text;
 }
 
+// Of the pairs within the margin the nearest whose response is assessed, else the nearest.
+const Margin& leading(const Margins& m) {
+  const auto assessed = std::find_if(m.rows.begin(), m.rows.end(),
+                                     [](const Margin& row) { return row.within && row.not_assessed.empty(); });
+  return assessed == m.rows.end() ? m.rows.front() : *assessed;
+}
+
 }  // namespace
 
 std::string range_text(const OperatingSpeeds& s, const SpeedUnit& unit) {
@@ -142,14 +149,19 @@ std::optional<Claim> margin_claim(const Margins& m, const SpeedUnit& unit) {
                    fmt::format("Every natural frequency keeps {} from all {} excitations at {}; the nearest are {}{}",
                                limit, m.lines.size(), range, nearest, sure),
                    "", nearest_row);
+  const Margin& first = leading(m);
+  const std::string share =
+      std::isfinite(share_of_joint(first))
+          ? fmt::format(", {:.0f} % of the limit of {}", 100 * share_of_joint(first), first.response->joint)
+          : "";
   const auto open = std::count_if(m.rows.begin(), m.rows.end(),
                                   [](const Margin& row) { return row.within && !row.not_assessed.empty(); });
-  return claimed(
-      Predicate::margin_missed,
-      fmt::format("{} pair{} of a natural frequency and an excitation lie{} within {} at {}: {}{}{}", within,
-                  within == 1 ? "" : "s", within == 1 ? "s" : "", limit, range, nearest, within > 1 ? ", and more" : "",
-                  open == 0 ? "" : fmt::format("; the response is not assessed for {} of them", open)),
-      "", nearest_row);
+  return claimed(Predicate::margin_missed,
+                 fmt::format("{} pair{} of a natural frequency and an excitation lie{} within {} at {}: {}{}{}{}",
+                             within, within == 1 ? "" : "s", within == 1 ? "s" : "", limit, range,
+                             pair_text(m, first, unit), share, within > 1 ? ", and more" : "",
+                             open == 0 ? "" : fmt::format("; the response is not assessed for {} of them", open)),
+                 "", nearest_row);
 }
 
 }  // namespace kurbel

@@ -195,7 +195,7 @@ std::vector<Band> bands_of(const ModesStudy& m) {
   }
   for (const SpeedStretch& s : stretches(m.sweep))
     if (!s.kept)
-      bands.push_back({m.speed_unit.of(m.sweep[s.begin].speed), m.speed_unit.of(m.sweep[s.end - 1].speed), "not kept",
+      bands.push_back({m.speed_unit.of(m.sweep[s.begin].speed), m.speed_unit.of(m.sweep[s.end - 1].speed), "cannot run",
                        Role::rigid});
   add_operating_bands(m, bands);
   const double speed = m.speed_unit.of(std::abs(m.drive.at.speed));
@@ -308,7 +308,7 @@ Plot campbell_plot(const ModesStudy& m) {
                            .text_at_start = fmt::format("{}  {}, {:.4g} Hz", mode.number, name_of(m, mode), f)});
   }
   if (std::any_of(plot.series.begin(), plot.series.end(), [](const Series& s) { return s.dashed; }))
-    plot.note += "Dotted: frequencies, converters and tooth meshes. ";
+    plot.note += "Dashed: excitations of fixed frequency, of converters and of tooth meshes. ";
   for (Series& met : meetings(m, lines, top)) plot.series.push_back(std::move(met));
   plot.note += shifted + modes_above(m, top);
   for (const ParametricZone& z : m.zones)

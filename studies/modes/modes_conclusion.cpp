@@ -53,19 +53,39 @@ std::size_t most_loaded_joint(const ModesStudy& m, const SpeedResponse& said) {
 // The headline has four digits: of five they would be rounded a second time.
 std::string rounded_once(double torque) { return std::isfinite(torque) ? short_text(torque, "N*m") : "unbounded"; }
 
+// "oscillates by ± 9.893 N·m about 153.9 N·m", "varies from 326.8 kN·m to 490.2 kN·m about its mean of 410.5 kN·m"
+std::string oscillation(const JointResponse& joint) {
+  constexpr double alike = 0.01;
+  const bool has_mean = std::abs(joint.mean) > 1e-6 * joint.peak;
+  const double above = joint.upper - joint.mean, below = joint.mean - joint.lower;
+  if (has_mean && std::isfinite(joint.peak) && std::abs(above - below) > alike * joint.peak)
+    return fmt::format("varies from {} to {} about its mean of {}", rounded_once(joint.lower),
+                       rounded_once(joint.upper), rounded_once(joint.mean));
+  return "oscillates by ± " + rounded_once(joint.peak) + (has_mean ? " about " + rounded_once(joint.mean) : "");
+}
+
 // "at 1500 rpm the torque in "coupling" oscillates by ± 9.893 N·m about 153.9 N·m"
 std::string amplitude_at_that_speed(const ModesStudy& m) {
   const SpeedResponse& said = m.cycle ? *m.cycle : m.here;
   const std::size_t j = most_loaded_joint(m, said);
   const JointResponse& joint = said.joints[j];
-  std::string text =
-      fmt::format("at {} the torque in \"{}\" oscillates by ± {}", m.speed_unit.text(std::abs(m.drive.at.speed), 5),
-                  m.joint_names[j], rounded_once(joint.peak));
-  if (std::abs(joint.mean) > 1e-6 * joint.peak) text += " about " + rounded_once(joint.mean);
+  std::string text = fmt::format("at {} the torque in \"{}\" {}", m.speed_unit.text(std::abs(m.drive.at.speed), 5),
+                                 m.joint_names[j], oscillation(joint));
   const double linear = m.here.joints[j].peak;
   if (m.cycle && std::abs(linear - joint.peak) > 0.1 * joint.peak)
-    text += fmt::format(" (linear model: {}, {:+.0f} %)", rounded_once(linear), 100 * (linear / joint.peak - 1));
+    text += fmt::format(" (linear model: ± {}, {:+.0f} %)", rounded_once(linear), 100 * (linear / joint.peak - 1));
   return text;
+}
+
+// The joint without a spring, if there is one: undamped, the drive moves without what is behind it.
+std::string only_damper(const ModesStudy& m) {
+  std::string name;
+  for (std::size_t j = 0; j < m.joint_names.size(); ++j)
+    if (m.drive.joints[j].stiffness == 0 && m.drive.joints[j].damping > 0) {
+      if (!name.empty()) return "";
+      name = m.joint_names[j];
+    }
+  return name;
 }
 
 }  // namespace
@@ -113,7 +133,7 @@ std::string why_shifted(const ModesStudy& m, const Mode& mode, double f) {
   const double lambda = mode.magnitude(), by_damping = f == mode.lambda.imag() ? f / lambda : 1;
   if (std::abs(lambda - mode.omega) <= much * mode.omega || std::abs(f - mode.omega * by_damping) <= much * mode.omega)
     return "";
-  constexpr double nearly_all = 0.9;
+  constexpr double nearly_all = 0.9, negligible = 0.001;
   double all = 0;
   const EnergyStore* most = nullptr;
   const std::vector<EnergyStore> stores = energy_stores(m, mode);
@@ -122,8 +142,12 @@ std::string why_shifted(const ModesStudy& m, const Mode& mode, double f) {
     all += store.share;
     if (!most || store.share > most->share) most = &store;
   }
-  if (!most || !(most->share > nearly_all * all)) return "";
-  return fmt::format(", {} by the {}", f > mode.omega ? "raised" : "lowered", most->name);
+  const char* const way = f > mode.omega ? "raised" : "lowered";
+  if (!most || most->share < negligible) {
+    const std::string damper = only_damper(m);
+    return damper.empty() ? "" : fmt::format(", {} by the inertia that \"{}\" couples by damping alone", way, damper);
+  }
+  return most->share > nearly_all * all ? fmt::format(", {} by the {}", way, most->name) : "";
 }
 
 std::string nature_of(const ModesStudy& m, const Mode& mode) {

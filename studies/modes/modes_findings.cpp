@@ -230,7 +230,7 @@ Rows spectral_table(const TorqueHistory& h, bool of_orders) {
 }
 
 std::string point_text(const ModesStudy& m) {
-  return fmt::format("linearised at {} of {}; {}", m.speed_unit.text(m.drive.at.speed), m.link, m.drive.mode_set);
+  return fmt::format("linearised at {} of {}; {}", m.speed_unit.text(m.drive.at.speed, 4), m.link, m.drive.mode_set);
 }
 
 std::string method_text(const ModesStudy& m) {
@@ -408,7 +408,7 @@ Findings findings_of(const ModesStudy& m) {
   for (const std::string& sentence : m.outside_data) f.claim(Predicate::outside_data, capitalised(sentence));
   f.claim(limit_claims(m.verdicts, "limit"));
   f.claim(barred_claim(m.barred, m.limited, m.speed_unit));
-  f.claim(stress_claim(m.stresses));
+  f.claim(stress_claims(m.stresses));
   f.claim(margin_claim(m.margins, m.speed_unit));
   const Chapter limits = f.chapter(modes_chapter::limits), modes = f.chapter(modes_chapter::modes),
                 campbell = f.chapter(modes_chapter::margins), forced = f.chapter(modes_chapter::forced),

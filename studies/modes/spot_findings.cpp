@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/claims/headline.h"
 #include "studies/findings/plots.h"
 #include "studies/findings/rows.h"
 #include "studies/modes/modes_plots.h"
@@ -31,6 +32,18 @@ std::string difference_text(const SpotCheck& spot, std::size_t j) {
   return share < 1000 ? fmt::format("{:+.0f} %", share) : fmt::format("{:.3g} times that", share / 100 + 1);
 }
 
+// The joint whose linear response is the farthest off, of those that carry much.
+std::size_t farthest_off(const SpotCheck& spot) {
+  constexpr double much = 0.1;  // of the largest torque
+  double largest = 0, most = -1;
+  std::size_t joint = spot.joint;
+  for (const JointResponse& r : spot.cycle->joints) largest = std::max(largest, r.peak);
+  for (std::size_t j = 0; j < spot.cycle->joints.size(); ++j)
+    if (const double peak = really(spot, j).peak; peak >= much * largest && std::abs(spot.difference(j)) > most * peak)
+      most = std::abs(spot.difference(j)) / peak, joint = j;
+  return joint;
+}
+
 std::string sentence(const ModesStudy& m, const SpotCheck& spot) {
   const std::string begin = fmt::format("spot check at {}: ", m.speed_unit.text(spot.speed, 5));
   const std::string linear = torque_text(spot.linear.joints[spot.joint].peak);
@@ -42,8 +55,10 @@ std::string sentence(const ModesStudy& m, const SpotCheck& spot) {
       fmt::format("the torque of {} has an amplitude of {} in the nonlinear cycle, {} in the linear response ({})",
                   m.joint_names[spot.joint], torque_text(really(spot, spot.joint).peak), linear,
                   difference_text(spot, spot.joint));
+  if (const std::size_t j = farthest_off(spot); j != spot.joint)
+    text += fmt::format("; the largest difference is in {}: {}", m.joint_names[j], difference_text(spot, j));
   if (!spot.stable) text += "; the cycle is unstable: a machine held at this speed leaves it";
-  return text;
+  return headline(text);
 }
 
 // A joint at one of the speeds.

@@ -143,7 +143,7 @@ void judge_steadiness(const Model& model, const DrivenTime& d, double tolerance,
   else
     periods.verdict = fmt::format("the {} speed is {} {:.3g} % {}", speed, periods.steady ? "within" : "still",
                                   100 * std::max(*approach.remaining / scale, least_reported),
-                                  periods.steady ? "of its limit" : "from its final value");
+                                  periods.steady ? "of its final value" : "from its final value");
 }
 
 // Margins of the range of the steady motion, in the order in which they are tried: 1 % of the speed hides a run-up where

@@ -27,7 +27,7 @@ std::string word_at(const Rows& rows, const std::string& key, std::size_t row) {
   return {};
 }
 
-// "… (60: the scene has no such torque; 8: …)"
+// "… (60: the scene as it is has no such torque; 8: …)"
 void add_margins(const Part& modes, std::vector<std::string>& lines) {
   const Rows* rows = rows_of(modes, "margins");
   if (!rows) return;
@@ -39,7 +39,7 @@ void add_margins(const Part& modes, std::vector<std::string>& lines) {
   std::vector<std::string> words;
   for (const auto& [why, count] : reasons) words.push_back(fmt::format("{}: {}", count, why));
   lines.push_back(fmt::format(
-      "the response of {} of the {} pairs of a mode and an excitation, whose margins are listed all the same ({})", all,
+      "the response of {} of the {} pairs of a mode and an excitation; their margins are in margins.csv ({})", all,
       rows->count, fmt::join(words, "; ")));
 }
 
@@ -94,6 +94,14 @@ void add_notes(const Part& part, std::vector<std::string>& lines) {
         }
 }
 
+// By another question, in the report.
+bool is_said(const Findings& report, const std::string& line) {
+  return std::any_of(report.statements.begin(), report.statements.end(), [&](const Statement& statement) {
+    const Sentences* words = std::get_if<Sentences>(&statement.what);
+    return words && std::find(words->lines.begin(), words->lines.end(), line) != words->lines.end();
+  });
+}
+
 const std::string* text_in(const Record& record, const std::string& key) {
   for (const Field& field : record)
     if (field.key == key) return field.value.as<std::string>();
@@ -139,7 +147,10 @@ void take(const std::vector<Part>& parts, const Part& part, const std::vector<bo
       rows->key.clear(), rows->terminal = rows->folded = false;
       if (section == Place::input) rows->means.clear();  // the dictionary explains them; key figures are explained here
     }
-    if (Sentences* words = std::get_if<Sentences>(&taken.what)) words->key.clear(), words->terminal = false;
+    if (Sentences* words = std::get_if<Sentences>(&taken.what)) {
+      words->key.clear(), words->terminal = false;
+      std::erase_if(words->lines, [&](const std::string& line) { return is_said(report, line); });
+    }
     report.statements.push_back(std::move(taken));
   }
 }

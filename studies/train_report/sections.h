@@ -22,7 +22,7 @@ inline constexpr std::array<SectionName, 8> section_names = {{
     {"response", "5 Forced response, ratings with their load cases"},
     {"time", "6 Starts, stops and the sequence in time; rigid against elastic"},
     {"assumptions", "7 Assumptions, and effects that are off"},
-    {"input", "8 Appendix: input"},
+    {"input", "8 Appendix: all figures, numerics, input"},
 }};
 
 // The answer to a question, or why there is none.

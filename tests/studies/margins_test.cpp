@@ -78,7 +78,7 @@ TEST(Margins, SayWhyAResponseIsNotAssessed) {
   const Margin* mains = row_of(study.margins, 1, "2× mains");
   ASSERT_TRUE(pulse && twice && mains);
   EXPECT_EQ(pulse->not_assessed, "the machine cannot run continuously there");
-  EXPECT_EQ(twice->not_assessed, "the scene has no such torque");
+  EXPECT_EQ(twice->not_assessed, "the scene as it is has no such torque");
   EXPECT_FALSE(mains->crossing);
   EXPECT_NEAR(mains->margin, std::sqrt(15750) / (200 * M_PI) - 1, 1e-6);
 }

@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <set>
 
+#include "studies/claims/headline.h"
 #include "studies/dictionary/dictionary.h"
 #include "studies/difference/difference.h"
 #include "studies/modes/modes.h"
+#include "studies/modes/modes_plots.h"
 #include "studies/run/run_findings.h"
 #include "studies/size/size.h"
 #include "studies/steady/steady.h"
@@ -119,6 +121,57 @@ TEST(PlainSentences, AFrequencyAboveTheUndampedOneHasItsReason) {
   EXPECT_TRUE(has(conclusion, "Hz, raised by ")) << conclusion;
 }
 
+// Shafts and joints stand along the axis as along the drive: in the first mode one node, in the second two.
+TEST(PlainSentences, ModeShapesAreDrawnAlongTheDrive) {
+  const Scene scene = test::scene_from(R"(
+line = ["damper", "left", "long", "middle", "further", "right"]
+left = { kind = "inertia", inertia = "20 kg*m2" }
+damper = { kind = "viscous damper", ring_inertia = "2 kg*m2", damping = "50 N*m*s/rad" }
+long = { kind = "shaft", length = "6 m", diameter = "100 mm", damping_ratio = 0.01 }
+middle = { kind = "inertia", inertia = "5 kg*m2" }
+further = { kind = "shaft", length = "4 m", diameter = "90 mm", damping_ratio = 0.01 }
+right = { kind = "inertia", inertia = "30 kg*m2" }
+effects = { elasticity = true }
+run = { start = { speed = "100 rpm" } }
+)");
+  const ModesStudy m = find_modes(scene, scene.effects, {});
+  const std::vector<Plot> plots = modes::mode_plots(m);
+  const std::vector<std::string>& names = plots.at(0).x.names;
+  ASSERT_GT(names.size(), 5u);
+  EXPECT_EQ(names.back(), "right");
+  const auto place = [&](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) - names.begin();
+  };
+  EXPECT_LT(place("left"), place("long.1"));
+  EXPECT_LT(place("long.1"), place("middle"));
+  EXPECT_LT(place("middle"), place("further.1"));
+  for (std::size_t k = 0; k < 2; ++k) {
+    int nodes = 0;
+    const std::vector<double>& y = plots[0].series.at(k).y;
+    for (std::size_t i = 1; i < y.size(); ++i) nodes += (y[i] > 0) != (y[i - 1] > 0) ? 1 : 0;
+    EXPECT_EQ(nodes, static_cast<int>(k) + 1) << k;
+  }
+}
+
+// A limit that a case exceeds is said before those that hold.
+TEST(PlainSentences, WhatACaseExceedsComesBeforeWhatHolds) {
+  Claims claims;
+  add(claims, claimed(Predicate::limit_held, "all limits hold", "shaft", {.value = 1, .limit = 2}));
+  add(claims, claimed(Predicate::limit_exceeded, "in the case \"broken\" a limit is exceeded", "shaft",
+                      {.value = 3, .limit = 2}));
+  ASSERT_EQ(claims.size(), 2u);
+  claims.back().variant = "broken";
+  EXPECT_TRUE(has(concluded(claims).front(), "exceeded"));
+}
+
+TEST(PlainSentences, AFrequencyLoweredByADamperHasItsReason) {
+  const Scene scene = test::scene_file("docs/tasks/ship_shaft_line.toml");
+  ModesOptions options;
+  options.modes_alone = true;
+  const std::string conclusion = findings_of(find_modes(scene, scene.effects, options)).conclusion();
+  EXPECT_TRUE(has(conclusion, "lowered by the inertia that \"damper\" couples by damping alone")) << conclusion;
+}
+
 // The speed of a load that drives the machine backwards changes its sign: a percentage says nothing of it.
 TEST(PlainSentences, AChangeOfSignDoesNotLead) {
   MachineDifference d;
@@ -149,7 +202,8 @@ TEST(PlainSentences, ASizedFlywheelIsSaidOnce) {
 }
 
 TEST(PlainSentences, WordsOfPagesAreExplained) {
-  for (const char* words : {"thermal load", "load edge", "folded dead centre", "Floquet multipliers", "angle of motor"})
+  for (const char* words : {"thermal load", "load edge", "folded dead centre", "Floquet multipliers", "angle of motor",
+                            "UR M68", "spot checks", "internal states", "resonance passed", "severity"})
     EXPECT_NE(meant_by(words), nullptr) << words;
 }
 

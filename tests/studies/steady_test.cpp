@@ -388,7 +388,7 @@ TEST(OperatingPoints, OfALoadThatOnlyStoresHasNoTorque) {
   const OperatingDiagram d = diagram_of(R"(
 line = ["motor", "crank"]
 motor = { kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "40 rad/s", inertia = "1 kg*m2" }
-crank = { kind = "slider-crank", radius = "100 mm", rod = "350 mm", crank_inertia = "0.5 kg*m2", slider_mass = "3 kg", gravity = "9.81 m/s2", direction = "90 deg" }
+crank = { kind = "slider-crank", radius = "100 mm", rod = "350 mm", crank_inertia = "0.5 kg*m2", slider_mass = "3 kg", gravity = "9.81 m/s2", stroke_angle = "90 deg" }
 )");
   ASSERT_EQ(d.points.size(), 1u);
   EXPECT_NEAR(d.points[0].speed.value, 40, 1e-9);
