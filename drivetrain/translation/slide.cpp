@@ -57,7 +57,7 @@ class SlideChannels final : public ElementPool {
                           [rate, i = shaft](const Snapshot& s) { return rate * s.alpha[i]; }});
       channels.push_back({Name::make(quantities::force, slide.name), "N", [k, all = forces](const Snapshot& s) {
                             double sum = 0;
-                            for (const int id : all) sum += s.sums.element_torque[id];
+                            for (const int id : all) sum += s.sums.element_torque[id] + s.hold_torque[id];
                             return sum / k;
                           }});
     }

@@ -65,6 +65,7 @@ struct Snapshot {
   const double* reaction;         // per node with prescribed motion: the torque for it [N·m]
   const double* relation_torque;  // per relation: torque λ that it takes from its first node [N·m]
   const double* relation_loss;    // per relation: the lost part of it [N·m]
+  const double* hold_torque;      // per element: what it holds at standstill, on its own node [N·m]
   const double* node_angle;       // per node, including full turns [rad]
   const double* quadrature;       // null without an audit
 };

@@ -401,6 +401,7 @@ const Snapshot& Flow::snapshot(double t, std::span<const double> y) {
   snapshot_.reaction = joint_torques_.balance().data();
   snapshot_.relation_torque = ties_.relation_torque().data();
   snapshot_.relation_loss = ties_.relation_loss().data();
+  snapshot_.hold_torque = joint_torques_.hold_torque().data();
   snapshot_.node_angle = node_angle_.data();
   snapshot_.quadrature = audit() ? y.data() + states_ : nullptr;
   return snapshot_;

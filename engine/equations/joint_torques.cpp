@@ -10,6 +10,7 @@ namespace kurbel {
 JointTorques::JointTorques(const Model& model) : model_(&model) {
   torque_.assign(model.network.joints.size(), 0);
   balance_.assign(model.network.nodes.size(), 0);
+  hold_torque_.assign(model.network.elements.size(), 0);
   list_trees();
   list_places();
 }
@@ -63,6 +64,8 @@ void JointTorques::find(const Given& given, std::span<const Held> held, const Ho
                         const Hold* element_hold) {
   add_inertia_and_elements(given);
   add_connections(given);
+  if (holds_) std::fill(hold_torque_.begin(), hold_torque_.end(), 0.0);
+  holds_ = !held.empty();
   for (const Held& one : held) add_held(one, shaft_hold[one.shaft], element_hold);
   // Links that close loops are no steps of the trees: their torques are zero until the loops share.
   for (const auto& loop : loops_.loops())
@@ -109,7 +112,8 @@ void JointTorques::add_held(const Held& held, const Hold& shaft_hold, const Hold
     const std::size_t n = at(m.network.elements[e].node);
     if (m.shaft_of_node[n] != held.shaft) continue;
     const bool upwards = (held.rest > 0) == (m.gain_of_node[n] > 0);  // on the element's own shaft
-    balance_[n] -= held.rest / capacity * (upwards ? element_hold[e].high : element_hold[e].low);
+    hold_torque_[e] = held.rest / capacity * (upwards ? element_hold[e].high : element_hold[e].low);
+    balance_[n] -= hold_torque_[e];
   }
 }
 

@@ -41,6 +41,7 @@ class JointTorques {
   const std::vector<double>& torque() const { return torque_; }  // per joint of the network [N·m]
   // Per node: the needed external torque; with prescribed motion the reaction [N·m].
   const std::vector<double>& balance() const { return balance_; }
+  const std::vector<double>& hold_torque() const { return hold_torque_; }  // per element, on its own node [N·m]
 
   // Of the last find(): the free shaft with the largest remainder at its root, relative to the torques on the shaft. The
   // torque of any joint within it differs by this amount between its two sides.
@@ -73,7 +74,8 @@ class JointTorques {
   LoadLoops loops_;
   std::vector<NodeInertia> nodes_;
   std::vector<ElementPlace> elements_;
-  std::vector<double> torque_, balance_;
+  std::vector<double> torque_, balance_, hold_torque_;
+  bool holds_ = false;  // hold_torque_ is not all zero
 };
 
 }  // namespace kurbel

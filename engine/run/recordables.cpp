@@ -116,7 +116,7 @@ class ChannelList {
     if (own.empty()) return;
     add(Name::make(quantities::torque, component), "N*m", [own](const Snapshot& s) {
       double sum = 0;
-      for (const std::size_t e : own) sum += s.sums.element_torque[e];
+      for (const std::size_t e : own) sum += s.sums.element_torque[e] + s.hold_torque[e];
       return sum;
     });
   }

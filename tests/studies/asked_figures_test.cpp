@@ -1,4 +1,5 @@
 // asked_figures_test.cpp — figures that a scene asks for by [[figure]], against closed forms.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -129,6 +130,28 @@ TEST(AskedFigures, ThatARunDoesNotGiveAreNoted) {
                        "[[figure]]: no cycle_peak_speed.a: the run has no whole cycle",
                        "[[figure]]: no step_peak_speed.1.a: the run does not come to step 1 of the sequence"}));
   EXPECT_TRUE(r.find("peak_speed.b"));
+}
+
+// m g R = 9806.65 N·m, held by one at rest; by two in proportion to their capacities.
+TEST(AskedFigures, TorqueOfWhatHoldsAMachineIsWhatItHolds) {
+  const std::string drum = R"(
+line = ["drum"]
+drum = { kind = "slide", radius = "1 m", inclination = "90 deg", mass = "1 t", inertia = "10 kg*m2" }
+run = { start = "rest", until = "1 s" }
+figure = [{ functional = "rms", channel = "torque.holder" }, { functional = "rms", channel = "torque.other" }]
+)";
+  const std::string none = "other = { kind = \"bearing\", on = \"drum\", torque = \"0 N*m\" }\n";
+  for (const char* kind : {"brake", "bearing", "load"}) {
+    const Result r = test::run(
+        drum + fmt::format("holder = {{ kind = \"{}\", on = \"drum\", torque = \"20 kN*m\" }}\n", kind) + none);
+    const Figure* held = r.find("rms_torque.holder");
+    ASSERT_TRUE(held) << kind;
+    EXPECT_NEAR(held->value, 9806.65, 1e-6) << kind;
+  }
+  const Result two = test::run(drum + "holder = { kind = \"brake\", on = \"drum\", torque = \"20 kN*m\" }\n" +
+                               "other = { kind = \"bearing\", on = \"drum\", torque = \"5 kN*m\" }\n");
+  EXPECT_NEAR(two.find("rms_torque.holder")->value, 0.8 * 9806.65, 1e-6);
+  EXPECT_NEAR(two.find("rms_torque.other")->value, 0.2 * 9806.65, 1e-6);
 }
 
 // A brake of −40 N·m at any speed whose command is a trapezoid: from 1 at 0.2 s to ¼ within 0.2 s, from 0.6 s to ¾ within
