@@ -1,4 +1,5 @@
 // chain.cpp — the drive as a chain: inertias and the elastic parts between them.
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -6,6 +7,15 @@
 #include "studies/reduce/reduce.h"
 
 namespace kurbel {
+
+namespace {
+
+// Whether one damping describes it: not what slips, has play, or internal states.
+bool is_linear(const AnyConnection& joint) {
+  return joint.damping > 0 || !(joint.is.slips || joint.is.states > 0 || joint.is.guards > 0);
+}
+
+}  // namespace
 
 Chain elastic_chain(const Model& model, int node) {
   const Network& net = model.network;
@@ -57,7 +67,7 @@ Chain elastic_chain(const Model& model, int node) {
     const bool whole = joint.chain >= 0 && net.chains[at(joint.chain)].degree > 0;
     const double share = whole ? net.chains[at(joint.chain)].stiffness / joint.element->stiffness : 1;
     const double ratio = model.node_ratio[at(joint.a)] / target, k = share * joint.element->stiffness,
-                 c = share * joint.element->damping;
+                 c = is_linear(*joint.element) ? share * joint.element->damping : std::nan("");
     const int b = whole ? net.chains[at(joint.chain)].nodes.back() : joint.b;
     chain.springs.push_back(
         {joint.component, at(group[at(joint.a)]), at(group[at(b)]), k, c, ratio, k * ratio * ratio, c * ratio * ratio});

@@ -65,8 +65,10 @@ struct ChainInertia {
 };
 struct ChainSpring {
   std::string name;
-  std::size_t a = 0, b = 0;                      // the inertias that it connects
-  double stiffness = 0, damping = 0, ratio = 1;  // own [N·m/rad], [N·m·s/rad]; of its driving shaft
+  std::size_t a = 0, b = 0;  // the inertias that it connects
+  // Own [N·m/rad], at rest; [N·m·s/rad], NaN where one number is not its damping (slip, play, internal states); of its
+  // driving shaft.
+  double stiffness = 0, damping = 0, ratio = 1;
   double reduced_stiffness = 0, reduced_damping = 0;
 };
 // The chain with every coupling and shaft elastic, whatever effects are on.

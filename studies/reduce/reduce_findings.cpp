@@ -16,6 +16,7 @@ namespace kurbel {
 namespace {
 
 std::string number(double value, int digits = 6) { return read_as(value, {.digits = digits}); }
+std::string damping_text(double c) { return std::isnan(c) ? "not linear" : number(c, 5) + " N·m·s/rad"; }
 
 std::string conclusion_of(const MachineReduction& r) {
   const ReducedPosition *most = nullptr, *least = nullptr;
@@ -298,8 +299,8 @@ Rows chain_table(const Chain& chain, const std::string& to, double slowest, doub
   }
   for (const ChainSpring& s : chain.springs)
     lines.push_back({fmt::format("k{}-{}", s.a + 1, s.b + 1), s.name, number(s.stiffness) + " N·m/rad", number(s.ratio),
-                     number(s.reduced_stiffness) + " N·m/rad", number(s.damping, 5) + " N·m·s/rad",
-                     number(s.reduced_damping, 5) + " N·m·s/rad"});
+                     number(s.reduced_stiffness) + " N·m/rad", damping_text(s.damping),
+                     damping_text(s.reduced_damping)});
   if (fastest > 0) {
     headings.insert(headings.begin() + 4, fmt::format("speed [{}]", unit.name));
     for (std::size_t k = 0; k < lines.size(); ++k) {
