@@ -17,6 +17,7 @@
 #include "studies/forces/linkage_cycle.h"
 #include "studies/forces/machine_motion.h"
 #include "studies/forces/oil_film.h"
+#include "studies/margins/margins.h"
 #include "studies/reduce/mechanism_words.h"
 #include "studies/validity/substitutes.h"
 
@@ -276,7 +277,12 @@ CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& o
   if (const std::optional<double> operating = operating_speed_of(machine))
     return {*operating, "the operating speed, at which the mean torques of drive and load balance"};
   if (const double start = machine.start_speed(); start != 0) return {start, "the scene's start speed"};
-  return {machine.rated_speed(), "rated speed, as the scene starts from rest"};
+  const OperatingSpeeds run = operating_speeds(machine.model(), {}, {});
+  const double to_crank = machine.rated_speed() / machine.model().speed_scale;
+  if (run.known())
+    return {run.fastest * to_crank,
+            (run.said ? "the fastest " + run.words : run.words) + ", as the scene starts from rest"};
+  return {machine.rated_speed(), "its drive's speed scale, as the scene starts from rest"};
 }
 
 void describe(const AskedMechanism& asked, Forces& out) {

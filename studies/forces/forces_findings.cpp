@@ -206,7 +206,12 @@ Rows position_table(const Forces& f, const ForceCycle& c) {
     table.only_for_people(heading_of(joints, j) + " [N]",
                           [k, largest, or_nothing](P p) { return or_nothing(force_of(p.forces.joints[k]), largest); });
     if (j.slides && is_given(f, j))
-      table.only_for_people("at [mm]", [k](P p) { return p.forces.joints[k].point(); }, {.factor = 1e3, .digits = 4});
+      table.only_for_people("at [mm]",
+                            [k, largest, or_nothing](P p) {
+                              const JointForces& joint = p.forces.joints[k];
+                              return or_nothing(force_of(joint), largest) == 0 ? std::nan("") : joint.point();
+                            },
+                            {.factor = 1e3, .digits = 4, .otherwise = "a couple"});
   }
   table.only_for_people("shaking [N]",
                         [&, or_nothing](P p) { return or_nothing(p.forces.shaking_force.magnitude(), largest); });
