@@ -121,8 +121,9 @@ std::string figures_in_words(const Result& r) {
   if (const Figure* delta = first_of(r, quantities::delta); delta && delta->value < stands_within_the_cycle)
     more(fmt::format("the speed of \"{}\" fluctuates by δ = {}", delta->of, reported(*delta)));
   if (const Figure* cycle = first_of(r, quantities::cycle_fluctuation); cycle && cycle->value < stands_within_the_cycle)
-    more(fmt::format("the speed of \"{}\" changes by {} of its mid value in the last cycle, which is not steady",
-                     cycle->of, reported(*cycle)));
+    more(fmt::format(
+        "the speed of \"{}\" changes by {} of its mid value in the last cycle, {}", cycle->of, reported(*cycle),
+        r.periods.remaining || r.periods.without_limit ? "which is not steady" : "whose steadiness is not judged"));
   for (const Figure& f : r.figures)
     if (f.words() == "thermal_use" && f.value <= 1)  // a greater one is reported before
       more(fmt::format(

@@ -137,11 +137,15 @@ class Study {
     out_.diagram = operating_diagram(*machine, sense(), lossy_);
     log(fmt::format("operating points: {} of {} speeds scanned", out_.diagram->points.size(),
                     out_.diagram->curve.size()));
+    const bool without_losses = out_.diagram->estimate;
     if (model.has_memory()) out_.diagram->become_estimate();
     if (out_.diagram->estimate)
-      out_.notes.push_back(
-          "operating points are estimates, by the static torques of the rigid machine: losses that depend on the load, "
-          "or internal states, are not in them; the steady cycle and the start from rest include them");
+      out_.notes.push_back(fmt::format(
+          "operating points are estimates, by the static torques of the rigid machine: {} are not in them; the steady "
+          "cycle and the start from rest include them",
+          !without_losses      ? "internal states"
+          : model.has_memory() ? "losses that depend on the load and internal states"
+                               : "losses that depend on the load"));
   }
   std::string why_no_diagram(const Model& m) const {
     if (!scene_.sequence.steps.empty()) return "the operating sequence sets what drives and brakes";
