@@ -232,6 +232,13 @@ void add_link_speeds(const Model& model, std::vector<ExtremeOf>& wanted) {
   wanted.push_back(std::move(speed));
 }
 
+// The rate of a velocity; empty: it is no channel of the model.
+std::function<double(const Snapshot&)> acceleration_beside(const Model& model, const std::string& of) {
+  for (const Channel& channel : model.pool_channels)
+    if (channel.name.what == quantities::acceleration && channel.name.of == of) return channel.value;
+  return {};
+}
+
 }  // namespace
 
 std::vector<Channel> channels_of(const Model& model, const std::vector<std::string>& components) {
@@ -256,10 +263,14 @@ std::vector<ExtremeOf> extremes_of(const Model& model) {
   for (std::size_t k = 0; k < model.internal_states.size(); ++k)
     if (const InternalState& state = model.internal_states[k].state; state.peak) {
       wanted.push_back(peak_of(internal_state(model, k), state.scale));
-      wanted.back().rate = [k](const Snapshot& s) { return s.sums.internal_rate[k]; };
+      wanted.back().rate = wanted.back().slope = [k](const Snapshot& s) { return s.sums.internal_rate[k]; };
     }
-  for (const Channel& channel : model.pool_channels)
-    if (channel.name.what != quantities::position) wanted.push_back(peak_of(channel));
+  for (const Channel& channel : model.pool_channels) {
+    if (channel.name.what == quantities::position) continue;
+    wanted.push_back(peak_of(channel));
+    if (channel.name.what == quantities::velocity)
+      wanted.back().rate = wanted.back().slope = acceleration_beside(model, channel.name.of);
+  }
   return wanted;
 }
 

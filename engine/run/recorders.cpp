@@ -4,6 +4,7 @@
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
+#include "engine/numerics/straight.h"
 
 namespace kurbel {
 namespace {
@@ -11,13 +12,6 @@ namespace {
 // Peaks that differ by less are repetitions of the same peak: the time of the first one counts.
 constexpr double same_peak = 1e-9, rounding = 1e-13;
 constexpr double beside = 1e-3;  // of a step: rates by differences
-
-// Both slopes within a factor of two of the mean one: nothing turns between. A parabola turns where one is below zero, a
-// cubic where one is above three times the mean.
-bool runs_straight(double first_slope, double last_slope, double mean_slope) {
-  const auto is_alike = [&](double slope) { return slope / mean_slope >= 0.5 && slope / mean_slope <= 2; };
-  return mean_slope != 0 && is_alike(first_slope) && is_alike(last_slope);
-}
 
 }  // namespace
 
@@ -166,10 +160,11 @@ bool ExtremeRecorder::may_be_beaten(std::size_t i) const {
   return std::max(merit(i, first_.value[i]), merit(i, last_.value[i])) + reach > merit(i, found_[i].value);
 }
 
+// First at both ends; asked again, beside the middle.
 void ExtremeRecorder::look_beside(StepView& view) {
   const double delta = beside * (last_.t - first_.t);
   const double time[] = {first_.t + delta, middle_.t - delta, middle_.t + delta, last_.t - delta};
-  for (std::size_t k = 0; k < beside_.size(); ++k) {
+  for (const std::size_t k : beside_[0].empty() ? std::array<std::size_t, 2>{0, 3} : std::array<std::size_t, 2>{1, 2}) {
     const Snapshot& snapshot = view.snapshot(time[k]);
     for (const ExtremeOf& wanted : wanted_) beside_[k].push_back(wanted.rate ? 0 : wanted.value(snapshot));
   }
@@ -193,7 +188,12 @@ void ExtremeRecorder::search(StepView& view, std::size_t i) {
   double r0 = first_.rate[i], rm = middle_.rate[i], r1 = last_.rate[i];
   if (!wanted_[i].rate) {
     if (beside_[0].empty()) look_beside(view);
-    r0 = beside_[0][i] - a, rm = beside_[2][i] - beside_[1][i], r1 = b - beside_[3][i];
+    r0 = beside_[0][i] - a, r1 = b - beside_[3][i];
+    const bool is_law = static_cast<bool>(wanted_[i].argument);  // it may be steeper between the samples
+    if (!is_law && runs_straight(r0 / beside, r1 / beside, tilt) && runs_straight(2 * (m - a), 2 * (b - m), tilt))
+      return;
+    if (beside_[1].empty()) look_beside(view);
+    rm = beside_[2][i] - beside_[1][i];
   }
   for_each_turn(rate, {first_.t, r0}, {middle_.t, rm}, {last_.t, r1}, [&](double t) {
     const double value = wanted_[i].value(view.snapshot(t));
@@ -318,7 +318,8 @@ void CycleRecorder::step(StepView& view) {
     if (t > from) {
       const double a0 = alpha(from), a1 = alpha(t), w0 = speed(from), w1 = speed(t);
       const double reach = (t - from) * (std::abs(a0) + std::abs(a1));
-      if (std::max(w0, w1) + reach > max_ || std::min(w0, w1) - reach < min_) {
+      if ((std::max(w0, w1) + reach > max_ || std::min(w0, w1) - reach < min_) &&
+          !runs_straight(a0, a1, (w1 - w0) / (t - from), closely)) {
         const int parts = free ? 8 : 2;  // samples of one state are cheap
         double before = a0;
         for (int k = 1; k <= parts; ++k) {

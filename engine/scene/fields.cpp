@@ -21,15 +21,18 @@ std::vector<int> wholes(const std::vector<double>& numbers) {
 }
 
 // Its value in the section, or null; throws std::logic_error where a required one is missing.
-static const Setting* found(const Key& key, const Section& section) {
-  return key.required ? &section[key.name] : section.find(key.name);
+static const Setting* found(const std::string& key, bool required, const Section& section) {
+  return required ? &section[key] : section.find(key);
 }
 
 void FieldTable::enter(Key key, Member member, Setter set) {
-  enter(std::vector<Key>{key}, member,
-        [key, at = member.at, set = std::move(set)](std::byte* data, const Place& place) {
-          if (const Setting* setting = found(key, *place.section)) set(data + at, *setting);
-        });
+  Reader read = [name = key.name, required = key.required, at = member.at, set = std::move(set)](std::byte* data,
+                                                                                                 const Place& place) {
+    if (const Setting* setting = found(name, required, *place.section)) set(data + at, *setting);
+  };
+  std::vector<Key> one;
+  one.push_back(std::move(key));
+  enter(one, member, std::move(read));
 }
 
 void FieldTable::enter(const std::vector<Key>& added, Member member, Reader read) {
@@ -90,7 +93,7 @@ static bool is_one_table(const Place& place, const std::string& key, std::size_t
 
 Reader nested(Key key, bool list, bool numbered, bool named, Reader put) {
   return [=](std::byte* data, const Place& place) {
-    const Setting* setting = found(key, *place.section);
+    const Setting* setting = found(key.name, key.required, *place.section);
     if (!setting || (!list && !is_one_table(place, key.name, setting->sections.size()))) return;
     for (std::size_t i = 0; i < setting->sections.size(); ++i) {
       std::string what = place.what + ": " + key.name;

@@ -1,4 +1,4 @@
-// mechanism_tree.h — a Simbody model from the description of any mechanism: the source of the second extraction.
+// mechanism_tree.h — a Simbody model from the description of any mechanism: it confirms the second extraction.
 #pragma once
 
 #include <functional>

@@ -4,7 +4,7 @@
 namespace kurbel {
 
 // Runs of a machine share its tables, so their comparison does not show the errors of the tables. The second extraction
-// shares only the mechanism's data with the first: it has another source, other pieces and another degree.
+// has other pieces and another degree, and Simbody confirms its values or, where it does not, is their source.
 enum class Extraction { first, second };
 
 }  // namespace kurbel

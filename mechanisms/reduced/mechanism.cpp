@@ -196,9 +196,9 @@ MechanismElement::MechanismElement(Mechanism mechanism) : mechanism_(std::move(m
 
 std::string MechanismElement::describe() const {
   const TableReport& report = mechanism_.reduced->report();
-  std::string text =
-      fmt::format("table of {}: {} pieces from {} samples of {}, errors", mechanism_.name, report.pieces,
-                  report.samples, mechanism_.extraction == Extraction::first ? "the closed form" : "Simbody");
+  std::string text = fmt::format(
+      "table of {}: {} pieces from {} samples of {}, errors", mechanism_.name, report.pieces, report.samples,
+      mechanism_.extraction == Extraction::first ? "the closed form" : "the closed form and Simbody");
   for (const TableReport::Channel& channel : report.channels)
     text += fmt::format(" {} {:.0e},", channel.name, channel.error);
   text.back() = report.converged ? ' ' : ';';

@@ -163,8 +163,7 @@ class MechanismPool final : public ReactingPool {
     bool watches_travel = false;  // some load depends on the direction of travel
     // With joint friction: indices of the forces within, in the order of JointFriction::applied(); −1: not placed.
     std::vector<int> within = {};
-    // Account of the first load: after that of the weight, which forces within a linkage do not have.
-    int load_account() const { return at.account + (mechanism.is_force() ? 0 : 1); }
+    int load_account = 0;  // of the first load: after that of the weight, which forces within a linkage do not have
   };
   struct GuardOwner {
     std::size_t placed;

@@ -23,6 +23,7 @@ bool acts(const ShaftPorts& at, const Instant& now, std::size_t load) {
 void MechanismPool::place(Mechanism mechanism, ShaftPorts at) {
   Placed placed{std::move(mechanism), std::move(at)};
   placed.has_weight = placed.mechanism.has_weight();
+  placed.load_account = placed.at.account + (placed.mechanism.is_force() ? 0 : 1);
   placed.output_scale = placed.mechanism.output_scale();
   // The friction of a guide reverses with the slider.
   const JointFriction* friction = placed.mechanism.friction.get();
@@ -126,7 +127,7 @@ void MechanismPool::add(const Instant& now, Sums& sums) const {
         s.mode = now.mode[p.at.mode + 1 + static_cast<int>(k)];
         const double force = p.mechanism.loads[k].value(s);
         torque += force * ratio;
-        if (sums.work_rate) sums.work_rate[p.load_account() + static_cast<int>(k)] += force * s.v;
+        if (sums.work_rate) sums.work_rate[p.load_account + static_cast<int>(k)] += force * s.v;
       }
     }
     sums.element_torque[p.at.id] = torque;

@@ -188,29 +188,28 @@ ReducedMechanism::ReducedMechanism(PeriodicTable table, CrankCycle cycle)
 
 ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance, std::size_t max_pieces,
                                    Extraction extraction) {
-  const bool by_bodies = extraction == Extraction::second && has_bodies;
-  std::unique_ptr<MechanismBodies> bodies;
-  if (by_bodies)
-    bodies = data.make_bodies();
-  else
-    data.bodies_of();  // finds the data's faults all the same
-  double turns = 0;    // an output that rocks may count whole turns from another place [rad]
   const ReducedMechanism::Sampler closed = [&](double phi) { return closed_sample(data, phi); };
-  const ReducedMechanism::Sampler sampler = by_bodies ? ReducedMechanism::Sampler([&](double phi) {
+  const CrankCycle cycle((data.bodies_of(), data));  // finds the data's faults first
+  const auto noise = noise_scales(closed, cycle, !data.rocks());
+  if (extraction == Extraction::first || !has_bodies)
+    return ReducedMechanism(closed, noise, fine_tolerance * tolerance, max_pieces, fine_cut, cycle);
+
+  const std::unique_ptr<MechanismBodies> bodies = data.make_bodies();
+  double turns = 0;  // an output that rocks may count whole turns from another place [rad]
+  const ReducedMechanism::Sampler by_bodies = [&](double phi) {
     ReducedSample sample = bodies->sample(phi);
     sample.output_position -= turns;
     return sample;
-  })
-                                                      : closed;
-  CrankCycle cycle(data);
-  if (const double phi = cycle.angle_at(1); by_bodies && data.rocks()) {
-    const double apart = sampler(phi).output_position - closed(phi).output_position;
+  };
+  if (const double phi = cycle.angle_at(1); data.rocks()) {
+    const double apart = by_bodies(phi).output_position - closed(phi).output_position;
     turns = apart - std::remainder(apart, 2 * std::numbers::pi);
   }
-  const auto noise = noise_scales(sampler, cycle, !data.rocks());
-  return ReducedMechanism(sampler, noise, by_bodies ? tolerance : fine_tolerance * tolerance, max_pieces,
-                          by_bodies ? PeriodicTable::Cut() : fine_cut, std::move(cycle),
-                          by_bodies ? closed : ReducedMechanism::Sampler());
+  ReducedMechanism confirmed(closed, noise, tolerance, max_pieces, {}, cycle, by_bodies);
+  const auto agrees = [&](const TableReport::Channel& channel) { return channel.error <= tolerance; };
+  if (const auto& channels = confirmed.report().channels; std::all_of(channels.begin(), channels.end(), agrees))
+    return confirmed;
+  return ReducedMechanism(by_bodies, noise, tolerance, max_pieces, {}, cycle, closed);
 }
 
 std::shared_ptr<const ReducedMechanism> reduce_mechanism(const MechanismData& data, double tolerance,

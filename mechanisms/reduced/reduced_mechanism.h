@@ -1,5 +1,5 @@
 // reduced_mechanism.h — a mechanism of one degree of freedom as functions of its crank angle, tabulated from the
-// loop equations in closed form or, for runs that confirm others, from Simbody.
+// loop equations in closed form and, for runs that confirm others, held against Simbody.
 //
 // For a rocking crank the tables are over σ with φ = middle + reach · cos σ, which is smooth at the ends of the arc.
 //
@@ -88,7 +88,7 @@ class ReducedMechanism {
   // Mean over a cycle; for a rocking crank the value in the middle of its arc.
   double mean(Channel channel) const { return rocks_ ? at(cycle_.arc()->middle).value(channel) : table_.mean(channel); }
 
-  // Pieces, samples and measured error of every channel; of Simbody's including the difference from the closed form.
+  // Pieces, samples and measured error of every channel; of the second including the difference from the other source.
   const TableReport& report() const { return table_.report(); }
 
  private:
@@ -105,15 +105,15 @@ class ReducedMechanism {
 inline constexpr double table_tolerance = 0.5e-12;
 inline constexpr std::size_t table_max_pieces = 4096;
 
-// Tables from the closed form have no boundary in common with those from Simbody and polynomials of another degree; their
-// errors are so much smaller that the difference of two runs is the error of Simbody's.
+// Tables of the first extraction have no boundary in common with those of the second and polynomials of another degree;
+// their errors are so much smaller that the difference of two runs is the error of the second's.
 inline constexpr PeriodicTable::Cut fine_cut = {23, 0.381966, 8};
-inline constexpr double fine_tolerance = 0.04;  // of Simbody's
+inline constexpr double fine_tolerance = 0.04;  // of the second's
 
-// A mechanism as functions of its crank angle: the first extraction from sums over the links (planar_linkage.h, 1 … 3 µs
-// per sample), the second from Simbody (10 … 40 µs per sample) with other boundaries and polynomials, so that the two have
-// no error in common. Kept for the life of the process and shared by calls with equal data. Throws as make_bodies and
-// MechanismBodies. Thread-safe.
+// A mechanism as functions of its crank angle, from sums over the links (planar_linkage.h, 1 … 3 µs per sample). The second
+// extraction has other boundaries and polynomials; Simbody (10 … 40 µs per sample) confirms each of its pieces at one angle,
+// and where it differs by more than the tolerance, the second is tabulated from Simbody alone: the two have no error in
+// common. Kept for the life of the process, shared by calls with equal data. Throws as MechanismBodies. Thread-safe.
 std::shared_ptr<const ReducedMechanism> reduce_mechanism(const MechanismData& data, double tolerance = table_tolerance,
                                                          std::size_t max_pieces = table_max_pieces,
                                                          Extraction extraction = Extraction::first);

@@ -6,6 +6,7 @@
 
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
+#include "engine/numerics/straight.h"
 #include "engine/numerics/turns.h"
 
 namespace kurbel {
@@ -73,10 +74,11 @@ void LinkRecorder::step(StepView& view) {
   if (view.t() < late_from_) return;
   // A swing may have its greatest speeds within steps; a cubic exceeds its ends by at most 4/27 of this.
   double reached = std::abs(speed);
-  const double beyond_ends = (view.t() - view.t_previous()) * std::abs(link.gain) *
-                             (std::abs(view.ydot_previous()[state]) + std::abs(view.ydot()[state]));
+  const double duration = view.t() - view.t_previous(), first = view.ydot_previous()[state], last = view.ydot()[state];
+  const double beyond_ends = duration * std::abs(link.gain) * (std::abs(first) + std::abs(last));
   const bool swings_back = late_sense_ == -sense && turns;
-  if (std::max(reached, std::abs(link.gain * from)) + beyond_ends > (swings_back ? 0 : swing_fastest_))
+  if (std::max(reached, std::abs(link.gain * from)) + beyond_ends > (swings_back ? 0 : swing_fastest_) &&
+      !runs_straight(first, last, (to - from) / duration, closely))
     for_each_turn_within(view.t_previous(), view.t(), speed_at,
                          [&](double t) { reached = std::max(reached, std::abs(link.gain * speed_at(t))); });
   if (view.t_previous() < late_from_) late_begin_ = low_ = high_ = before;

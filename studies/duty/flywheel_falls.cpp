@@ -7,6 +7,7 @@
 
 #include "drivetrain/shared/rating_keys.h"
 #include "engine/numerics/index.h"
+#include "engine/numerics/straight.h"
 #include "engine/numerics/turns.h"
 
 namespace kurbel {
@@ -54,12 +55,17 @@ void FlywheelFalls::step(StepView& view) {
       if (driven) w.look(t, speed);
     };
     if (!driven) w.highest = 0;  // what nothing drives runs down
-    const double w0 = std::abs(w.gain * view.y_previous()[w.state]), w1 = std::abs(w.gain * view.y()[w.state]);
+    const double y0 = view.y_previous()[w.state], y1 = view.y()[w.state];
+    const double w0 = std::abs(w.gain * y0), w1 = std::abs(w.gain * y1);
     see(view.t_previous(), w0);
     // Within the step it may exceed both ends; searched for only if it could matter.
     const double change = std::abs(w1 - w0), reach = 2 * (change + w.change);
     w.change = change;
-    if (driven && (std::max(w0, w1) + reach > w.highest || w.highest - std::min(w0, w1) + reach > w.from - w.to))
+    const double mean_slope = (y1 - y0) / (view.t() - view.t_previous());
+    const bool runs_on =
+        y0 * y1 > 0 && runs_straight(view.ydot_previous()[w.state], view.ydot()[w.state], mean_slope, closely);
+    if (driven && (std::max(w0, w1) + reach > w.highest || w.highest - std::min(w0, w1) + reach > w.from - w.to) &&
+        !runs_on)
       search(view, w, see);
     see(view.t(), w1);
   }

@@ -17,7 +17,6 @@
 #include "engine/scene/messages.h"
 #include "engine/scene/printable.h"
 #include "studies/files/clear_away.h"
-#include "studies/files/sha256.h"
 
 namespace kurbel {
 namespace {
@@ -131,7 +130,7 @@ ResultSet::~ResultSet() {
   if (!in_place_) delete_own(parent_.get(), staged_);
 }
 
-void ResultSet::add(const std::string& long_name, std::string_view text) {
+void ResultSet::add(const std::string& long_name, std::string_view text, const HashedBeginning& beginning) {
   const std::string name = shortened(long_name);
   const std::size_t slash = name.find('/');
   Descriptor inner;
@@ -145,7 +144,7 @@ void ResultSet::add(const std::string& long_name, std::string_view text) {
   append(file.get(), shown(name), text);
   // Starts writing to disk; flush_all waits for it.
   sync_file_range(file.get(), 0, 0, SYNC_FILE_RANGE_WRITE);
-  files_.emplace_back(name, sha256(text));
+  files_.emplace_back(name, sha256(text, beginning));
 }
 
 void ResultSet::adopt(const std::string& name) {

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "studies/files/sha256.h"
 #include "studies/files/staging.h"
 
 namespace kurbel {
@@ -34,7 +35,7 @@ class ResultSet {
   ResultSet& operator=(const ResultSet&) = delete;
 
   // "report.html" or "plots/torque.svg"; a name too long for a file system is shortened. Throws std::runtime_error.
-  void add(const std::string& name, std::string_view text);
+  void add(const std::string& name, std::string_view text, const HashedBeginning& beginning = {});
   // Another program may write into the set's folder; adopt() adds its file. As long as it holds this descriptor, the
   // folder does not count as abandoned.
   int folder() const { return folder_.get(); }

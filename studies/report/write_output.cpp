@@ -4,6 +4,13 @@
 #include "studies/files/result_set.h"
 
 namespace kurbel {
+namespace {
+
+constexpr HashedBeginning of_pages =
+#include <kurbel_page_beginning.h>
+    ;
+
+}  // namespace
 
 std::filesystem::path write_output(const StudyOutput& output, const std::filesystem::path& folder,
                                    const WriteOptions& options) {
@@ -14,7 +21,7 @@ std::filesystem::path write_output(const StudyOutput& output, const std::filesys
                    [&](const std::string& name, const std::string& bytes) { set.add(name, bytes); });
   set.add("summary.json", output.json() + "\n");
   const Report report = output.report();
-  set.add("report.html", html_of(report, options.head));
+  set.add("report.html", html_of(report, options.head), of_pages);
   if (options.plots) {
     const std::vector<TextFile> files = gnuplot_files(report);
     for (const TextFile& file : files) set.add("plots/" + file.name, file.text);

@@ -32,6 +32,7 @@ namespace {
 
 constexpr double timed_for = 0.1;          // all timings of a run together [s]
 constexpr int energy_checks = 60;          // in a run; each evaluates the mechanism's bodies, which takes some 20 µs
+constexpr int first_checks = 15;           // in a run that a finer one replaces
 constexpr double least_tolerance = 2e-15;  // smaller ones exceed double precision
 // Shortest last step of the sequence: errors decrease at least with the square root of the tolerance, so that the
 // coarser run's are twice the finer's, and their difference still covers the finer's.
@@ -286,7 +287,8 @@ class Simulation {
   std::unique_ptr<OneRun> one_run(double tolerance, Equations& equations, bool elsewhere, const SpeedRecorder* before) {
     const Model& model = equations.model();
     auto run = std::make_unique<OneRun>();
-    const int rows = elsewhere ? 0 : settings_.samples;  // a witness is asked for figures alone
+    const bool will_be_confirmed = options_.measure_error && !fine_;  // a finer run follows, whose balance counts
+    const int rows = elsewhere ? 0 : settings_.samples;               // a witness is asked for figures alone
     run->trajectory = std::make_shared<TrajectoryRecorder>(channels_of(model, settings_.output), settings_.until, rows);
     std::vector<ExtremeOf> extremes = extremes_of(model);
     for (const auto more : {motor_extremes_of, rim_speeds_of, shaft_torques_of, held_torques_of})
@@ -300,7 +302,9 @@ class Simulation {
     run->currents = std::make_unique<MotorCurrents>(model);
     run->ranges = std::make_unique<DataRangeRecorder>(model);
     run->speed = std::make_unique<SpeedRecorder>(settings_.until, before);
-    run->energy = std::make_unique<EnergyAudit>(settings_.until, elsewhere ? 2 : energy_checks);
+    run->energy = std::make_unique<EnergyAudit>(settings_.until, elsewhere           ? 2
+                                                                 : will_be_confirmed ? first_checks
+                                                                                     : energy_checks);
     RunOptions options{.tolerance = tolerance,
                        .method = elsewhere ? confirming_method() : settings_.method,
                        .until = settings_.until,

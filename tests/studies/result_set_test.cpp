@@ -16,6 +16,7 @@
 #include "studies/files/clear_away.h"
 #include "studies/files/sha256.h"
 #include "studies/files/whole_file.h"
+#include "studies/report/write_output.h"
 #include "tests/support/files.h"
 
 namespace kurbel::result_set_test {
@@ -277,6 +278,19 @@ TEST(Sha256, OfFips180AndOfEveryLengthAroundABlock) {
   std::set<std::string> different;
   for (std::size_t n = 0; n < 200; ++n) different.insert(sha256(std::string(n, '\0')));
   EXPECT_EQ(different.size(), 200u);
+}
+
+// The hash of a page goes on from the state behind what all pages share, which was hashed when kurbel was built.
+TEST(Sha256, OfAPageInTheManifestIsThatOfTheWholeFile) {
+  const test::ScratchFolder folder;
+  for (const char* title : {"", "Press"}) {
+    StudyOutput output;
+    output.title = title;
+    const fs::path out = folder / "out";
+    write_output(output, out);
+    EXPECT_NE(text_of(out / manifest_name).find(sha256(text_of(out / "report.html")) + "  report.html\n"),
+              std::string::npos);
+  }
 }
 
 }  // namespace
