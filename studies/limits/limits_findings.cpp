@@ -131,11 +131,12 @@ std::optional<Claim> barred_claim(const std::vector<BarredRange>& ranges, const 
   const std::string& joint = joints[b->joint].name;
   const bool known = std::isfinite(b->peak);
   return claimed(Predicate::speeds_barred,
-                 b->everywhere ? fmt::format("{} at every speed of {} ({})",
-                                             b->by == BarredRange::By::sign ? "a joint with play hammers" : "barred",
-                                             range_text(*b, unit), joint)
-                               : fmt::format("{} barred range{}, worst {} ({}{})", number, number == 1 ? "" : "s",
-                                             range_text(*b, unit), joint, excess_text(*b)),
+                 b->everywhere && number == 1
+                     ? fmt::format("{} at every speed of {} ({})",
+                                   b->by == BarredRange::By::sign ? "a joint with play hammers" : "barred",
+                                   range_text(*b, unit), joint)
+                     : fmt::format("{} barred range{}, worst {} ({}{})", number, number == 1 ? "" : "s",
+                                   range_text(*b, unit), joint, excess_text(*b)),
                  joint, {.value = known ? std::optional(b->peak) : std::nullopt, .limit = b->limit, .unit = "N*m"});
 }
 
