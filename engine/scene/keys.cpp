@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/base/find_by.h"
+#include "engine/numerics/angles.h"
 #include "engine/scene/units.h"
 
 namespace kurbel {
@@ -27,11 +28,13 @@ Curve CurveData::back() const {
 }
 
 std::string Domain::describe(const std::string& unit) const {
+  constexpr double degree = pi / 180;  // angles are given in degrees
+  if (unit == "rad") return Domain{low / degree, high / degree, low_open, high_open}.describe("deg");
   const bool bounded_low = std::isfinite(low), bounded_high = std::isfinite(high);
   if (bounded_low && bounded_high)
-    return low_open || high_open ? fmt::format("{} {} and {} {}", low_open ? ">" : "≥", low, high_open ? "<" : "≤",
+    return low_open || high_open ? fmt::format("{} {:.9g} and {} {}", low_open ? ">" : "≥", low, high_open ? "<" : "≤",
                                                with_unit(high, unit, 9))
-                                 : fmt::format("{} … {}", low, with_unit(high, unit, 9));
+                                 : fmt::format("{:.9g} … {}", low, with_unit(high, unit, 9));
   if (bounded_low) return fmt::format("{} {}", low_open ? ">" : "≥", with_unit(low, low == 0 ? "" : unit));
   if (bounded_high) return fmt::format("{} {}", high_open ? "<" : "≤", with_unit(high, unit));
   return "finite";

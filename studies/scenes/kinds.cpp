@@ -47,7 +47,7 @@ std::string type_of(const Key& key) {
 std::string domain_of(const Key& key) {
   const bool number = key.type == KeyType::quantity || key.type == KeyType::quantities ||
                       key.type == KeyType::integer || key.type == KeyType::integers;
-  return number ? key.domain.describe("") : "";
+  return number ? key.domain.describe(key.unit == "rad" ? key.unit : "") : "";
 }
 
 std::string rows(const std::vector<Key>& keys) {

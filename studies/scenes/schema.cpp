@@ -134,7 +134,8 @@ std::string description(const Key& key) {
   std::string doc = key.doc;
   if (key.type == KeyType::quantity || key.type == KeyType::quantities) {
     if (!key.unit.empty()) doc += fmt::format(" [{}]", pretty_unit(key.unit));
-    if (key.domain.describe("") != "finite") doc += ", " + key.domain.describe("");
+    if (const std::string domain = key.domain.describe(key.unit == "rad" ? key.unit : ""); domain != "finite")
+      doc += ", " + domain;
     if (!key.unit.empty()) doc += fmt::format("; e.g. {}", examples_of(key.unit));
   }
   return doc;
