@@ -192,6 +192,7 @@ class Sizer : MachineOnBasis {
     const OrbitCycle found = orbit_cycle(orbit);
     along_ = orbit.map->shared_model();
     s_.cycle = found.cycle;
+    if (!options_.mid_speed) cycle_time_ = found.time;
     if (const auto looser = looser_orbit_cycle(orbit)) looser_ = looser->cycle;
     s_.engine = drive_varies_with_angle();
     s_.diagram = balanced(s_.cycle);
@@ -333,7 +334,8 @@ class Sizer : MachineOnBasis {
       acting = std::max(acting, angle);
     }
     if (!(energy > 0) || acting >= 0.5 * s_.cycle.drive.length()) return;
-    s_.punch = PunchPress{energy, s_.cycle.drive.length() / s_.mid_speed, acting / s_.mid_speed, s_.diagram.work};
+    s_.punch = PunchPress{energy, cycle_time_.value_or(s_.cycle.drive.length() / s_.mid_speed), acting / s_.mid_speed,
+                          s_.diagram.work};
     s_.methods.push_back(
         method("punch-press form", inertia_by_fluctuation(s_.punch->from_flywheel(), s_.mid_speed, s_.delta)));
     // The classical estimate uses the stroke's energy without transmission losses.
@@ -361,6 +363,7 @@ class Sizer : MachineOnBasis {
 
   const SizeOptions& options_;
   Scene scene_;
+  std::optional<double> cycle_time_;    // of the orbit [s]; else that of the mid speed
   std::shared_ptr<const Model> along_;  // of the cycle along an orbit: a held speed adds an account
   std::optional<MachineCycle> looser_;
   double constant_inertia_ = 0;        // on the link [kg·m²]

@@ -267,6 +267,18 @@ TEST(LossesByTheLoad, AreInTheFlywheelOfThePunchAndInItsMotor) {
   EXPECT_NEAR(s.punch->power(), 10.5e3 * 36 * pi / 180 / 0.76 / (9 / (216 / 60.0)), 1);
 }
 
+// The motor gives the stroke's energy over the time between strokes, which the middle of a wide range of speeds is not.
+TEST(LossesByTheLoad, TheTimeBetweenStrokesIsThatOfTheMotion) {
+  const Scene scene = test::scene_file("scenes/crank_press.toml");
+  SizeOptions options;
+  options.delta = 0.05, options.basis = CycleBasis::steady;
+  const Sizing s = size_flywheel(scene, options);
+  ASSERT_TRUE(s.punch);
+  const SteadyStudy study = steady(scene, {scene.effects}, {.start_search = false});
+  const double period = figure_of(study.cycles[0], "period").value;
+  EXPECT_NEAR(s.punch->cycle_time, period, 1e-5 * period);
+}
+
 // --- 8: round-off ---
 
 TEST(RoundOff, OfAConservativeMachineIsNoVerdict) {
