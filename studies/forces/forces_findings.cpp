@@ -57,8 +57,7 @@ std::string torque_in_words(const ForceCycle& c) {
 }
 
 std::string closure_in_words(const ForceCycle& c) {
-  constexpr double shown = 1e-3;
-  if (std::abs(c.closure.value) < shown) return {};
+  if (std::abs(c.closure.value) < 1e-3) return {};
   return fmt::format("; the motion is not steady: over this cycle the crank's speed changes by {:+.2g} % of its mean",
                      100 * c.closure.value);
 }
@@ -208,8 +207,8 @@ Rows position_table(const Forces& f, const ForceCycle& c) {
     if (j.slides && is_given(f, j))
       table.only_for_people("at [mm]",
                             [k, largest, or_nothing](P p) {
-                              const JointForces& joint = p.forces.joints[k];
-                              return or_nothing(force_of(joint), largest) == 0 ? std::nan("") : joint.point();
+                              const JointForces& j = p.forces.joints[k];
+                              return or_nothing(force_of(j), largest) == 0 ? std::nan("") : j.point();
                             },
                             {.factor = 1e3, .digits = 4, .otherwise = "a couple"});
   }

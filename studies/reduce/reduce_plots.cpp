@@ -175,7 +175,7 @@ Plot chain_plot(const Chain& chain) {
   if (length == 0) length = 1e-6;
   Plot plot{.title = "The elastic chain: discs are inertias, distances are compliances",
             .x = {"compliance from the first inertia", "µrad/(N·m)"},
-            .y = {"", ""},
+            .y = {"branch of the drive", ""},
             .note = "Height of a disc: cube root of its reduced inertia. The table names what is on each."};
   for (int row = rows - 1; row > 0; --row) plot.y.names.push_back(fmt::format("branch {}", row));
   plot.y.names.emplace_back("main line");

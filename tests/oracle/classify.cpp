@@ -339,11 +339,17 @@ class MotionJudge {
       j["period"] = period, j["mean_speed"] = mean_speed(first.begin, end.end);
       j["least_speed"] = least, j["greatest_speed"] = greatest;
       j["stands_within"] = stands_within(first.begin, end.end);
-      const auto entered = [&](double part) {
-        const double margin = part * std::abs(mean_speed(first.begin, end.end));
-        return within_from(least - margin, greatest + margin);
+      // Within the range widened by a twentieth of it, but by 0.1 … 1 % of the speed; by 1 % if later laps leave that.
+      const double speed = std::abs(mean_speed(first.begin, end.end)), widest = 0.01 * speed;
+      const double narrow = m_.cycle > 0 ? std::clamp(0.05 * (greatest - least), 0.001 * speed, widest) : widest;
+      const auto entered = [&](double margin) { return within_from(least - margin, greatest + margin); };
+      const auto lasting = [&](double margin) {
+        const double t = entered(margin);
+        return t <= end.begin || narrow == widest ? t : entered(widest);
       };
-      j["run_up"] = entered(0.01), j["run_up_earliest"] = entered(0.011), j["run_up_latest"] = entered(0.009);
+      const double one = lasting(1.1 * narrow), other = lasting(0.9 * narrow);
+      j["run_up"] = lasting(narrow), j["run_up_earliest"] = std::min(one, other),
+      j["run_up_latest"] = std::max(one, other);
     } else if (!list.empty()) {
       j["mean_speed"] = list.back().mean, j["least_speed"] = list.back().least,
       j["greatest_speed"] = list.back().greatest;
