@@ -277,11 +277,11 @@ class Judge {
     const std::string holders = holding_component();
     std::optional<Claim> claim;
     if (!holders.empty() && (anything_acts || brake_that_holds()))
-      claim =
-          claimed(Predicate::held_by,
-                  fmt::format("\"{}\" is held by {}{}", link(), holders,
-                              anything_acts ? fmt::format(" against the {:.4g} N·m that act", std::abs(acts())) : ""),
-                  link(), {.at = rest(), .value = std::abs(acts()), .unit = "N*m"});
+      claim = claimed(
+          Predicate::held_by,
+          fmt::format("\"{}\" is held by {}{}", link(), holders,
+                      anything_acts ? fmt::format(" against the {:.4g} N·m that act on it", std::abs(acts())) : ""),
+          link(), {.at = rest(), .value = std::abs(acts()), .unit = "N*m"});
     else if (!moved && (is_held() || !ever))
       claim = claimed(Predicate::does_not_move, fmt::format("\"{}\" does not move", link()), link());
     if (claim) claim->in_conclusion = !moved;

@@ -119,7 +119,7 @@ TEST(Holding, IsSaidOfWhatCameToRest) {
   ASSERT_TRUE(held) << said(r);
   EXPECT_NEAR(*held->evidence.value, 20, 1e-9);
   EXPECT_NEAR(*held->evidence.at, 1 + 1.0 / 6, 1e-6);
-  EXPECT_TRUE(has(said(r), ", held by \"brake\" against the 20 N·m that act")) << said(r);
+  EXPECT_TRUE(has(said(r), ", held by \"brake\" against the 20 N·m that act on it")) << said(r);
   EXPECT_FALSE(find(r.claims, Predicate::stalls));
 }
 
