@@ -87,11 +87,6 @@ void put_curve(Network& net, int node, const std::string& component, const Torqu
     }
     net.put(node, component, TorqueOverSpeed{account, curve, sign}, window);
   } else {
-    if (data.beyond != Beyond::unspecified)
-      return refuse(
-          "\"beyond\" of a table over the angle: it repeats after each turn and has no end; drop \"beyond\" and give "
-          "the "
-          "points of the whole turn, or period = \"720 deg\" for two turns");
     CurveData closed = data;
     if (closed.period == 0) closed.period = 2 * std::numbers::pi;
     const double span = data.x.back() - data.x.front();

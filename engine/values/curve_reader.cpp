@@ -172,6 +172,11 @@ class CurveReader {
   bool read_beyond(CurveData& curve) {
     const DocumentEntry* entry = table_.find("beyond");
     if (!entry) return true;
+    if (curve.over == "angle")
+      return refuse(
+          entry->at,
+          "\"beyond\" of a table over the angle, which repeats and has no end; drop it, and give the points of a "
+          "whole period: a turn, or period = \"720 deg\"");
     static const std::vector<std::string> allowed = {"hold", "line", "refuse"};
     const auto found = std::find(allowed.begin(), allowed.end(), entry->value.text);
     if (found == allowed.end())

@@ -136,8 +136,6 @@ bool put_curve(const Reading<Keys>& s, Key key, const CurveData& data, const Mec
       load.law = std::move(law);
     } else {
       if (!data.x_back.empty()) return refuse("a table over the crank angle has one branch; drop return_points");
-      if (data.beyond != Beyond::unspecified)
-        return refuse("a table over the crank angle repeats after its cycle and has no end; drop \"beyond\"");
       load.law = OverAngle{AngleForce{end, data.curve().over_angle()}, chamber...};
     }
   } catch (const std::invalid_argument& error) {
