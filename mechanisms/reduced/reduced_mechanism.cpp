@@ -189,7 +189,8 @@ ReducedMechanism::ReducedMechanism(PeriodicTable table, CrankCycle cycle)
 ReducedMechanism extract_mechanism(const MechanismData& data, double tolerance, std::size_t max_pieces,
                                    Extraction extraction) {
   const ReducedMechanism::Sampler closed = [&](double phi) { return closed_sample(data, phi); };
-  const CrankCycle cycle((data.bodies_of(), data));  // finds the data's faults first
+  data.bodies_of();  // finds the data's faults
+  const CrankCycle cycle(data);
   const auto noise = noise_scales(closed, cycle, !data.rocks());
   if (extraction == Extraction::first || !has_bodies)
     return ReducedMechanism(closed, noise, fine_tolerance * tolerance, max_pieces, fine_cut, cycle);

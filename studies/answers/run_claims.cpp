@@ -93,7 +93,8 @@ class RunWords {
         return "vibrating" + c.text.substr(at);
     return {};
   }
-  // ", held by "brake" against the 147 N·m that act on it": for a link at rest with a torque on it; a motor's is another sentence.
+  // ", held by "brake" against the 147 N·m that act on it": for a link at rest with a torque on it; a motor's is another
+  // sentence.
   std::string held() const {
     for (const Claim& c : r_.claims)
       if (c.predicate == Predicate::held_by && c.text.find(" against ") != std::string::npos)

@@ -94,6 +94,8 @@ inline constexpr PageWord of_pages[] = {
     {"internal states; states of *; torques that follow speeds", of_trains,
      "damping or energy of a mode in quantities other than angles and speeds of shafts (currents, lagging torques), or "
      "in torques of motors and loads that depend on speed"},
+    {"branch of the drive; main line; branch *", "reduce, report",
+     "the chain from its first inertia on, and what branches from it, each drawn in a row of its own"},
     {"severity; stability", of_trains,
      "severity: the largest torque where an excitation meets a mode, and its share of the limit; stability: whether "
      "small deviations from the motion decay"},
@@ -210,8 +212,7 @@ inline constexpr PageWord of_pages[] = {
      "allowed there; allowed at *; allowed by its manufacturer; barred because of; barred; barred [*]",
      "run, modes, report",
      "a component's limit, the load of the load case with its factors, and use = load over limit; barred: range of "
-     "speeds "
-     "where it is exceeded"},
+     "speeds where it is exceeded"},
     {"T_KN", of_trains,
      "nominal torque of a coupling by its manufacturer, for the mean torque of steady motion (DIN 740-2)"},
     {"T_Kmax; T_K max", of_trains,

@@ -19,7 +19,8 @@ inline constexpr Definition of_channels_and_runs[] = {
      "an induction motor's slip, which is a part of the synchronous speed"},
     {"torque", "torque", "N*m", "COMPONENT", "1.2", of_files,
      "of a coupling what it transmits, positive when it drives its driven shaft; of a motor or load what it exerts on "
-     "its shaft, positive when it drives forwards; of a prescribed speed what keeps its shaft at it",
+     "its shaft, positive when it drives forwards, at standstill with what it holds; of a prescribed speed what keeps "
+     "its shaft at it",
      "", "reduced to another shaft"},
     {"spring_torque", "torque of a spring alone", "N*m", "COUPLING", "5.1", of_files,
      "the part of what an elastic element transmits that its twist gives", "τ = k θ",

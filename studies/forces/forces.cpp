@@ -282,7 +282,7 @@ CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& o
   if (run.known())
     return {run.fastest * to_crank,
             (run.said ? "the fastest " + run.words : run.words) + ", as the scene starts from rest"};
-  return {machine.rated_speed(), "its drive's speed scale, as the scene starts from rest"};
+  return {machine.rated_speed(), "reference speed of the machine, as the scene starts from rest"};
 }
 
 void describe(const AskedMechanism& asked, Forces& out) {

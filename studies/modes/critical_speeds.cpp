@@ -241,8 +241,8 @@ void omit_speeds_not_held(ModesStudy& found) {
   found.critical.erase(kept, found.critical.end());
   const std::size_t gone = found.not_kept.size();
   found.notes.push_back(fmt::format(
-      "at {} the machine cannot run continuously: small deviations grow, or the speed "
-      "would fluctuate by more than its mean; {}barred ranges there and spot checks are omitted. Passing these speeds "
+      "at {} the machine cannot run continuously: small deviations grow, or the speed would "
+      "fluctuate by more than its mean; {}barred ranges there and spot checks are omitted. Passing these speeds "
       "during run-up is judged by the start",
       where, gone > 0 ? fmt::format("{} critical speed{} (with the margins), ", gone, gone == 1 ? "" : "s") : ""));
 }

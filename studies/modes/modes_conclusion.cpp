@@ -77,15 +77,18 @@ std::string amplitude_at_that_speed(const ModesStudy& m) {
   return text;
 }
 
-// The joint without a spring, if there is one: undamped, the drive moves without what is behind it.
-std::string only_damper(const ModesStudy& m) {
-  std::string name;
-  for (std::size_t j = 0; j < m.joint_names.size(); ++j)
-    if (m.drive.joints[j].stiffness == 0 && m.drive.joints[j].damping > 0) {
-      if (!name.empty()) return "";
-      name = m.joint_names[j];
-    }
-  return name;
+// The joint without a spring that takes most of what the mode dissipates; empty: none does. Undamped, the drive moves
+// without what is behind it.
+std::string damper_of(const ModesStudy& m, const Mode& mode) {
+  constexpr double most = 0.8;
+  const Eigen::VectorXd rate = m.drive.twists * mode.shape;
+  const Eigen::VectorXcd torque = m.drive.damper_torques(rate.cast<Complex>());
+  const double all = mode.shape.dot(m.drive.damping * mode.shape);
+  for (std::size_t j = 0; j < m.joint_names.size(); ++j) {
+    const auto row = static_cast<Eigen::Index>(j);
+    if (m.drive.joints[j].stiffness == 0 && rate[row] * torque[row].real() > most * all) return m.joint_names[j];
+  }
+  return "";
 }
 
 }  // namespace
@@ -144,7 +147,7 @@ std::string why_shifted(const ModesStudy& m, const Mode& mode, double f) {
   }
   const char* const way = f > mode.omega ? "raised" : "lowered";
   if (!most || most->share < negligible) {
-    const std::string damper = only_damper(m);
+    const std::string damper = damper_of(m, mode);
     return damper.empty() ? "" : fmt::format(", {} by the inertia that \"{}\" couples by damping alone", way, damper);
   }
   return most->share > nearly_all * all ? fmt::format(", {} by the {}", way, most->name) : "";

@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <functional>
+#include <utility>
 
 #include "engine/numerics/index.h"
 #include "engine/scene/text.h"
@@ -81,36 +82,29 @@ class AlongTheDrive {
   }
 
  private:
+  // What hangs together with it, as a tree.
   void visit(std::size_t begin) {
+    if (seen_[begin]) return;
+    std::vector<std::size_t> found = {begin};
+    seen_[begin] = 1;
+    for (std::size_t i = 0; i < found.size(); ++i)
+      for (const std::size_t to : next_[found[i]])
+        if (!std::exchange(seen_[to], 1)) further_[found[i]].push_back(to), found.push_back(to);
+    for (std::size_t i = found.size(); i > 0; --i)
+      for (const std::size_t to : further_[found[i - 1]]) behind_[found[i - 1]] += 1 + behind_[to];
     std::vector<std::size_t> left = {begin};
     while (!left.empty()) {
       const std::size_t c = left.back();
       left.pop_back();
-      if (!seen_.insert(c).second) continue;
       order_.push_back(c);
-      std::vector<std::pair<std::size_t, std::size_t>> further;  // by what lies behind each
-      for (const std::size_t to : next_[c])
-        if (!seen_.contains(to)) further.emplace_back(0, to);
-      if (further.size() > 1)
-        for (auto& [size, to] : further) size = behind(to);
-      std::sort(further.rbegin(), further.rend());
-      for (const auto& [size, to] : further) left.push_back(to);
+      std::ranges::stable_sort(further_[c], std::greater{}, [this](std::size_t to) { return behind_[to]; });
+      left.insert(left.end(), further_[c].begin(), further_[c].end());
     }
-  }
-  std::size_t behind(std::size_t begin) const {
-    std::set<std::size_t> found = seen_;
-    std::vector<std::size_t> left = {begin};
-    while (!left.empty()) {
-      const std::size_t c = left.back();
-      left.pop_back();
-      if (found.insert(c).second) left.insert(left.end(), next_[c].begin(), next_[c].end());
-    }
-    return found.size() - seen_.size();
   }
 
-  std::vector<std::vector<std::size_t>> next_;
-  std::vector<std::size_t> order_;
-  std::set<std::size_t> seen_;
+  std::vector<std::vector<std::size_t>> next_, further_ = std::vector<std::vector<std::size_t>>(next_.size());
+  std::vector<std::size_t> order_, behind_ = std::vector<std::size_t>(next_.size());  // behind each: how many
+  std::vector<char> seen_ = std::vector<char>(next_.size());
 };
 
 // Shafts and joints in the order in which they stand along the drive.

@@ -185,6 +185,8 @@ Plot chain_plot(const Chain& chain) {
     const bool spring = s.reduced_stiffness > 0;
     plot.series.push_back({.name = spring
                                        ? fmt::format("{}: k = {}", s.name, short_text(s.reduced_stiffness, "N*m/rad"))
+                                   : std::isnan(s.reduced_damping)
+                                       ? s.name + ": not linear"
                                        : fmt::format("{}: c = {}", s.name, short_text(s.reduced_damping, "N*m*s/rad")),
                            .role = Role::elastic,
                            .x = {1e6 * a.x, 1e6 * b.x},
