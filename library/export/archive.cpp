@@ -9,18 +9,9 @@
 #include <memory>
 #include <stdexcept>
 
-// clang-format off
-asm(".section .rodata\n"
-    ".balign 16\n"
-    ".global kurbel_fmi_image_begin\n"
-    "kurbel_fmi_image_begin:\n"
-    ".incbin \"" KURBEL_FMI_IMAGE "\"\n"
-    ".global kurbel_fmi_image_end\n"
-    "kurbel_fmi_image_end:\n"
-    ".previous\n");
-// clang-format on
-extern "C" const char kurbel_fmi_image_begin[];
-extern "C" const char kurbel_fmi_image_end[];
+#include "engine/base/embedded.h"
+
+KURBEL_EMBEDDED(kurbel_fmi_image, KURBEL_FMI_IMAGE);
 
 namespace kurbel {
 

@@ -2,16 +2,13 @@
 # without what reads files, linked so that it needs libc and libstdc++ alone.
 set(rooms engine/base engine/scene engine/elements engine/model engine/equations engine/events engine/steppers engine/run
   engine/numerics engine/matrices engine/values engine/reading engine/tables "drivetrain(/[a-z_]+)?" mechanisms/linkage
-  mechanisms/linkages mechanisms/bodies mechanisms/friction mechanisms/loads mechanisms/reduced mechanisms/deforming
+  mechanisms/linkages mechanisms/loops mechanisms/bodies mechanisms/friction mechanisms/loads mechanisms/reduced mechanisms/deforming
   mechanisms/link_forces mechanisms/joints mechanisms/kinds)
 list(JOIN rooms "|" rooms)
 set(run_time ${KURBEL_SOURCES})
 list(FILTER run_time INCLUDE REGEX "/((${rooms})/[a-z_]+|library/fmi/(directional|exported_machine|instance|instance_text|ports|variables))\\.cpp$")
-list(FILTER run_time EXCLUDE REGEX "/(spreadsheet|mat_text|periodic_schur|multistep_stepper)\\.cpp$")
-# Of Simbody's island those that do without Simbody.
-get_target_property(loops kurbel_simbody SOURCES)
-list(FILTER loops INCLUDE REGEX "/mechanisms/loops/[a-z_]+\\.cpp$")
-add_library(kurbel_fmi SHARED ${run_time} ${loops} ${KURBEL_FMI_ALONE})
+list(FILTER run_time EXCLUDE REGEX "/(spreadsheet|mat_text|periodic_schur|multistep_stepper|load_simbody|travel_bodies)\\.cpp$")
+add_library(kurbel_fmi SHARED ${run_time} ${KURBEL_FMI_ALONE})
 set_target_properties(kurbel_fmi PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON LINKER_LANGUAGE CXX
   BUILD_RPATH "$ORIGIN" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})  # the path that the standard asks for
 if(KURBEL_UNITY)
@@ -32,10 +29,7 @@ add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/kurbel_fmi_tables.h VERBATIM
 target_sources(kurbel_fmi PRIVATE ${PROJECT_BINARY_DIR}/kurbel_fmi_tables.h)
 target_include_directories(kurbel_fmi PRIVATE ${PROJECT_BINARY_DIR})
 target_link_libraries(kurbel_fmi PRIVATE Eigen3::Eigen nlohmann_json::nlohmann_json kurbel_warnings ${archives})
-foreach(part klu amd colamd btf suitesparseconfig)
-  find_library(STATIC_${part} lib${part}.a REQUIRED)
-  target_link_libraries(kurbel_fmi PRIVATE ${STATIC_${part}})
-endforeach()
+target_link_libraries(kurbel_fmi PRIVATE ${KLU_ARCHIVES})
 # What nothing of the interface leads to is left out of it. Where gold is installed (Debian's binutils have it), functions
 # of the same code are held once: 0.3 MB.
 find_program(GOLD ld.gold)
@@ -50,6 +44,4 @@ endif()
 if(NOT KURBEL_SANITIZE AND NOT KURBEL_LIBFUZZER)
   target_link_options(kurbel_fmi PRIVATE -Wl,-z,defs)
 endif()
-# What tells two images apart, for whoever keeps objects by the sources that they are made of.
-add_custom_command(TARGET kurbel_fmi POST_BUILD BYPRODUCTS ${PROJECT_BINARY_DIR}/kurbel_fmi_image.h VERBATIM
-  COMMAND sh -c "sha256sum < $<TARGET_FILE:kurbel_fmi> | sed 's|^|// |' > ${PROJECT_BINARY_DIR}/kurbel_fmi_image.h")
+image_of(kurbel_fmi)

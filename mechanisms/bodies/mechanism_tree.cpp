@@ -321,8 +321,6 @@ std::unique_ptr<PlanarSystem> planar_system(const BodiesOf& of, double shaft_ine
   return LinkageSystem(of, shaft_inertia).make();
 }
 
-std::unique_ptr<MechanismBodies> make_bodies(const BodiesOf& of) { return sampled(planar_system(of)); }
-
 std::vector<BodyInTree> tree_of(const BodiesOf& of) {
   const LinkageTree tree(of);
   std::vector<BodyInTree> list;

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "mechanisms/bodies/planar_system.h"
+#include "mechanisms/bodies/simbody_module.h"
 
 namespace kurbel {
 
@@ -120,13 +121,13 @@ MultibodySample observe(const PlanarSystem& bodies, const State& state) {
 
 }  // namespace
 
-std::vector<std::string> multibody_integrators() {
+std::vector<std::string> simbody::multibody_integrators() {
   std::vector<std::string> names;
   for (const IntegratorChoice& choice : integrators) names.emplace_back(choice.name);
   return names;
 }
 
-MultibodyResult run_multibody(const MultibodyProblem& problem) {
+MultibodyResult simbody::run_multibody(const MultibodyProblem& problem) {
   validate(problem);
 
   // Bodies, weights, applied forces.

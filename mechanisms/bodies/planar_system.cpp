@@ -27,6 +27,7 @@ class SampledBodies final : public MechanismBodies {
   ReducedSample sample_from(double phi, const std::vector<double>& start) override {
     return sample_of(planar_->reduce_at(state_, planar_->within_a_cycle(phi), start), phi);
   }
+  std::vector<TrackedMotion> tracked() const override { return tracked_; }
 
   double kinetic_energy(double phi, double omega) override {
     state_.updU() = omega * reduce_at(phi, Upto::velocity).q1;
@@ -47,8 +48,10 @@ class SampledBodies final : public MechanismBodies {
     return planar_->reduce_at(state_, planar_->within_a_cycle(phi), last);
   }
 
-  ReducedSample sample_of(const Reduction& reduced, double phi) const {
+  ReducedSample sample_of(const Reduction& reduced, double phi) {
     ReducedSample sample{};
+    tracked_.clear();
+    for (const PlanarSystem::Place& place : planar_->places) tracked_.push_back(motion_of(place, reduced));
     sample.inertia = reduced.inertia;
     sample.inertia_slope = reduced.slope;
     sample.inertia_curvature = reduced.curvature;
@@ -81,8 +84,21 @@ class SampledBodies final : public MechanismBodies {
     return sample;
   }
 
+  TrackedMotion motion_of(const PlanarSystem::Place& place, const Reduction& reduced) const {
+    const auto flat = [](const Vec3& v) { return Planar<double>{v[0], v[1]}; };
+    const PointMotion& point = reduced.points[place.point];
+    TrackedMotion m{flat(point.position), flat(point.velocity_ratio), flat(point.acceleration_ratio)};
+    for (const int q : place.pins) {
+      m.rotation += state_.getQ()[q];
+      m.rotation_velocity_ratio += reduced.q1[q];
+      m.rotation_acceleration_ratio += reduced.q2[q];
+    }
+    return m;
+  }
+
   std::unique_ptr<PlanarSystem> planar_;
   State state_;
+  std::vector<TrackedMotion> tracked_;
 };
 
 }  // namespace

@@ -130,6 +130,7 @@ void build_mechanism(const Section& s, const MechanismData& data, const Mounting
   std::optional<Mechanism> mechanism;
   try {
     mechanism.emplace(s.name, data);
+    if (has_bodies && far_apart(s)) mechanism->bodies->sample(data.bodies_of().place);  // Simbody may refuse them
   } catch (const OutOfTime&) {
     throw;
   } catch (const std::exception& why) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "mechanisms/loops/planar.h"
+
 namespace kurbel {
 
 // Mass properties of a link. The centre of mass lies on the link's axis.
@@ -48,6 +50,12 @@ struct LinkageDrawing {
   std::vector<std::string> names = {};  // of the places; empty: O, A, B …
 };
 
+// A tracked point of a body, and the body's rotation as the sum of its pins' angles, with derivatives by φ.
+struct TrackedMotion {
+  Planar<double> position, velocity_ratio, acceleration_ratio;                        // [m], [m/rad], [m/rad²]
+  double rotation = 0, rotation_velocity_ratio = 0, rotation_acceleration_ratio = 0;  // [rad], [1], [1/rad]
+};
+
 // Simbody's model of a mechanism, evaluated at single configurations. Takes some 20 µs per sample; not thread-safe.
 // All members throw std::runtime_error with the numbers if a loop does not close or closes on the wrong branch.
 class MechanismBodies {
@@ -62,6 +70,9 @@ class MechanismBodies {
   virtual double kinetic_energy(double phi, double omega) = 0;  // [J]
   // Of all weights; zero at the height of the crank's axis.
   virtual double potential_energy(double phi) = 0;  // [J]
+
+  // What BodiesOf::tracked names, in its order, at the last sample.
+  virtual std::vector<TrackedMotion> tracked() const { return {}; }
 };
 
 }  // namespace kurbel

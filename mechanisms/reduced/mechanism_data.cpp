@@ -1,9 +1,36 @@
 // mechanism_data.cpp — from a mechanism's description to its bodies, its places, its reduced functions.
 #include "mechanisms/reduced/mechanism_data.h"
 
+#include <algorithm>
 #include <cctype>
 
 namespace kurbel {
+namespace {
+
+// Made when they are first asked for: a scene that is only checked needs none.
+class LateBodies final : public MechanismBodies {
+ public:
+  explicit LateBodies(std::function<std::unique_ptr<MechanismBodies>()> make) : make_(std::move(make)) {}
+  ReducedSample sample(double phi) override { return made().sample(phi); }
+  ReducedSample sample_from(double phi, const std::vector<double>& start) override {
+    return made().sample_from(phi, start);
+  }
+  double kinetic_energy(double phi, double omega) override { return made().kinetic_energy(phi, omega); }
+  double potential_energy(double phi) override { return made().potential_energy(phi); }
+  std::vector<TrackedMotion> tracked() const override {
+    return made_ ? made_->tracked() : std::vector<TrackedMotion>{};
+  }
+
+ private:
+  MechanismBodies& made() {
+    if (!made_) made_ = make_();
+    return *made_;
+  }
+  std::function<std::unique_ptr<MechanismBodies>()> make_;
+  std::unique_ptr<MechanismBodies> made_;
+};
+
+}  // namespace
 
 std::vector<PlanePoint> MechanismData::places(double phi) const {
   if (held_->places) return held_->places(phi);
@@ -32,7 +59,12 @@ std::unique_ptr<MechanismBodies> MechanismData::make_bodies() const {
     bodies_of();  // its faults are found all the same
     return nullptr;
   } else {
-    return held_->own_bodies ? held_->own_bodies() : kurbel::make_bodies(bodies_of());
+    if (held_->own_bodies) return std::make_unique<LateBodies>(held_->own_bodies);
+    const BodiesOf of = bodies_of();
+    const auto bare = [](const PlanarLinkage::Body& body) { return body.mass == 0 && body.inertia > 0; };
+    const std::vector<PlanarLinkage::Body> links = of.linkage(of.place).bodies;
+    if (std::any_of(links.begin(), links.end(), bare)) return kurbel::make_bodies(of);  // which may refuse them
+    return std::make_unique<LateBodies>([of] { return kurbel::make_bodies(of); });
   }
 }
 
