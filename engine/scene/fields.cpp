@@ -25,6 +25,32 @@ static const Setting* found(const std::string& key, bool required, const Section
   return required ? &section[key] : section.find(key);
 }
 
+struct FieldTable::Rows {
+  struct Entry {
+    std::vector<std::string> names;  // of its keys; none: a rule
+    Member member;
+    Reader read;
+  };
+  std::vector<Key> keys;
+  std::vector<Entry> entries;
+  std::vector<void (*)()> rules;
+
+  const Entry* of(Member member) const {
+    const auto is = [&](const Entry& entry) { return !entry.names.empty() && entry.member == member; };
+    const auto entry = std::find_if(entries.begin(), entries.end(), is);
+    return entry == entries.end() ? nullptr : &*entry;
+  }
+};
+
+FieldTable::FieldTable() : rows_(std::make_shared<Rows>()) {}
+FieldTable::FieldTable(const FieldTable&) = default;
+FieldTable::~FieldTable() = default;
+
+FieldTable::Rows& FieldTable::own() {
+  if (rows_.use_count() > 1) rows_ = std::make_shared<Rows>(*rows_);
+  return *rows_;
+}
+
 void FieldTable::enter(Key key, Member member, Setter set) {
   Reader read = [name = key.name, required = key.required, at = member.at, set = std::move(set)](std::byte* data,
                                                                                                  const Place& place) {
@@ -32,37 +58,34 @@ void FieldTable::enter(Key key, Member member, Setter set) {
   };
   std::vector<Key> one;
   one.push_back(std::move(key));
-  enter(one, member, std::move(read));
+  enter(std::move(one), member, std::move(read));
 }
 
-void FieldTable::enter(const std::vector<Key>& added, Member member, Reader read) {
-  if (entry_of(member))
+void FieldTable::enter(std::vector<Key>&& added, Member member, Reader read) {
+  Rows& rows = own();
+  if (rows.of(member))
     throw std::logic_error(
         fmt::format("the member that key \"{}\" fills is filled by another key, too", added.front().name));
-  Entry entry{{}, member, std::move(read)};
-  for (const Key& key : added) {
-    if (std::any_of(keys.begin(), keys.end(), [&](const Key& k) { return k.name == key.name; }))
+  Rows::Entry entry{{}, member, std::move(read)};
+  for (Key& key : added) {
+    if (std::any_of(rows.keys.begin(), rows.keys.end(), [&](const Key& k) { return k.name == key.name; }))
       throw std::logic_error(fmt::format("key \"{}\" is declared twice in one table", key.name));
-    keys.push_back(key);
     entry.names.push_back(key.name);
+    rows.keys.push_back(std::move(key));
   }
-  entries_.push_back(std::move(entry));
+  rows.entries.push_back(std::move(entry));
 }
 
-void FieldTable::enter(Reader rule) { entries_.push_back({{}, {-1, &typeid(void)}, std::move(rule)}); }
+void FieldTable::enter(Reader rule) { own().entries.push_back({{}, {-1, &typeid(void)}, std::move(rule)}); }
+
+void FieldTable::check(void (*rule)()) { own().rules.push_back(rule); }
 
 void FieldTable::read(std::byte* data, const Place& place) const {
-  for (const Entry& entry : entries_) entry.read(data, place);
-}
-
-const FieldTable::Entry* FieldTable::entry_of(Member member) const {
-  const auto is = [&](const Entry& entry) { return !entry.names.empty() && entry.member == member; };
-  const auto entry = std::find_if(entries_.begin(), entries_.end(), is);
-  return entry == entries_.end() ? nullptr : &*entry;
+  for (const Rows::Entry& entry : rows_->entries) entry.read(data, place);
 }
 
 const std::vector<std::string>& FieldTable::names_of(Member member) const {
-  if (const Entry* entry = entry_of(member)) return entry->names;
+  if (const Rows::Entry* entry = rows_->of(member)) return entry->names;
   not_filled();
 }
 
@@ -72,6 +95,10 @@ const std::string& FieldTable::key_of(Member member, const Section& section) con
     if (section.given(name)) return name;
   return names.front();
 }
+
+const std::vector<Key>& FieldTable::keys() const { return rows_->keys; }
+std::vector<Key> FieldTable::take_keys() { return std::move(own().keys); }
+const std::vector<void (*)()>& FieldTable::rules() const { return rows_->rules; }
 
 const Key* one_given(const std::vector<Key>& keys, const Place& place) {
   const Key* given = nullptr;

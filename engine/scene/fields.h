@@ -20,6 +20,7 @@
 #include <bit>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -138,32 +139,31 @@ void set_member(std::byte* member, const Setting& setting) {
   set(as<M>(member), setting);
 }
 
-// The table without the type of its struct, so that its code is not repeated for some hundred structs.
+// The table without the type of its struct, so that its code is not repeated for some hundred structs. Copies share it
+// until one is changed: a function that returns a chain of calls copies its result.
 class FieldTable {
  public:
+  FieldTable();
+  FieldTable(const FieldTable& other);
+  ~FieldTable();
   // Throw std::logic_error if a key or member is already in the table.
   void enter(Key key, Member member, Setter set);
-  void enter(const std::vector<Key>& keys, Member member, Reader read);
+  void enter(std::vector<Key>&& keys, Member member, Reader read);
   // A rule in the order of the table: default of a member, or a member derived from others.
   void enter(Reader rule);
-  void check(void (*rule)()) { rules.push_back(rule); }
-
+  void check(void (*rule)());  // void (*)(const Reading<D>&)
   void read(std::byte* data, const Place& place) const;
   // Names of the keys of a member; throws std::logic_error if there are none.
   const std::vector<std::string>& names_of(Member member) const;
   const std::string& key_of(Member member, const Section& section) const;
-
-  std::vector<Key> keys;
-  std::vector<void (*)()> rules;  // void (*)(const Reading<D>&)
+  const std::vector<Key>& keys() const;
+  std::vector<Key> take_keys();
+  const std::vector<void (*)()>& rules() const;
 
  private:
-  struct Entry {
-    std::vector<std::string> names;  // of its keys; none: a rule
-    Member member;
-    Reader read;
-  };
-  const Entry* entry_of(Member member) const;
-  std::vector<Entry> entries_;
+  struct Rows;
+  Rows& own();
+  std::shared_ptr<Rows> rows_;
 };
 
 template <class V>
@@ -331,8 +331,8 @@ class Fields {
     return *this;
   }
 
-  const std::vector<Key>& keys() const& { return table_.keys; }
-  std::vector<Key> keys() && { return std::move(table_.keys); }  // of a temporary
+  const std::vector<Key>& keys() const& { return table_.keys(); }
+  std::vector<Key> keys() && { return table_.take_keys(); }  // of a temporary
 
   // Reads a valid section; faults go into the messages, with the section's kind and name unless `what` is given.
   Reading<D> read(const Section& section, Messages& messages, std::string what = "") const {
@@ -341,7 +341,7 @@ class Fields {
   Reading<D> read_at(const Place& place, D data = {}) const {
     table_.read(reinterpret_cast<std::byte*>(&data), place);
     const Reading<D> reading(std::move(data), *this, place);
-    for (void (*const rule)() : table_.rules) reinterpret_cast<void (*)(const Reading<D>&)>(rule)(reading);
+    for (void (*const rule)() : table_.rules()) reinterpret_cast<void (*)(const Reading<D>&)>(rule)(reading);
     return reading;
   }
 

@@ -26,11 +26,15 @@ Question export_question();  // in library/fmi
 Question fit_question();
 
 const std::vector<Question>& questions() {
-  static const std::vector<Question> all = {
-      run_question(),         compare_question(), difference_question(), reduce_question(), size_question(),
-      forces_question(),      gears_question(),   modes_question(),      report_question(), steady_question(),
-      effects_question(),     advise_question(),  accuracy_question(),   sweep_question(),  merge_question(),
-      uncertainty_question(), fit_question(),     export_question()};
+  static const std::vector<Question> all = [] {
+    std::vector<Question> list;
+    for (Question (*const made)() :
+         {run_question, compare_question, difference_question, reduce_question, size_question, forces_question,
+          gears_question, modes_question, report_question, steady_question, effects_question, advise_question,
+          accuracy_question, sweep_question, merge_question, uncertainty_question, fit_question, export_question})
+      list.push_back(made());
+    return list;
+  }();
   return all;
 }
 

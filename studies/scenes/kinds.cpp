@@ -193,14 +193,14 @@ std::string meanings_of_key(const std::string& name) {
 
 namespace {
 
-// Sections point into the list of kinds at reading, so that earlier lists are kept.
+// Sections point into the list of kinds at reading, so that earlier lists are kept, to the end of the program.
 struct KnownKinds {
   std::mutex mutex;
   std::deque<std::vector<Kind>> lists;
 };
 
 KnownKinds& known_kinds() {
-  static KnownKinds known;
+  static KnownKinds& known = *new KnownKinds;
   if (const std::scoped_lock lock(known.mutex); known.lists.empty()) {
     std::vector<Kind> list = drivetrain_kinds();
     for (Kind& kind : mechanism_kinds()) list.push_back(std::move(kind));
