@@ -28,8 +28,8 @@ const Tables<Reading<SpringKeys>>& spring_tables() {
       Fields<SpringKeys>()
           .add(
               {.name = "between",
-               .doc =
-                   "two points, each of a link or of the frame; of a pin it acts on the first link there is through it",
+               .doc = "two points, each of a link or of the frame; of a pin it acts on the first link there is through "
+                      "it, or on the one named before it: \"rod A barrel C\"",
                .required = true},
               &SpringKeys::between)
           .add(defaulted("stiffness", "N/m", "0 N/m", not_negative, "k"), &SpringKeys::stiffness)
@@ -52,9 +52,12 @@ const Tables<Reading<PointForceKeys>>& force_tables() {
   static const auto made = by_names(
       "force", "A force between two points along their line, or on a point",
       Fields<PointForceKeys>()
-          .add({.name = "between",
-                .doc = "two points: the load's laws count their distance, a positive force pushes them apart"},
-               &PointForceKeys::between)
+          .add(
+              {.name = "between",
+               .doc = "two points, of a pin with the link before it: \"rod A barrel C\"; without a link it acts on the "
+                      "first one through the pin, on the frame at its points. The load's laws count their distance, a "
+                      "positive force pushes them apart"},
+              &PointForceKeys::between)
           .add({.name = "on",
                 .doc = "a point of a link; of a pin the link before it says on which it acts: \"rocker B\""},
                &PointForceKeys::on)
@@ -167,17 +170,34 @@ class LinkageForceBuilder {
   }
 
  private:
-  // On the frame it stands; else the first link has it.
+  template <class List>
+  static bool named(const List& list, const std::string& name) {
+    return std::any_of(list.begin(), list.end(), [&](const auto& one) { return one.name == name; });
+  }
+
+  // On the frame it stands; else the first link has it, or the one that is named.
   template <class K, class M>
-  std::optional<LinkageTravel::Place> place_of(const K& k, M member, const std::string& name) const {
+  std::optional<LinkageTravel::Place> place_of(const K& k, M member, const std::string& name,
+                                               const std::string& link = "") const {
     for (int p = 0; p < static_cast<int>(s_.points.size()); ++p) {
       if (s_.points[static_cast<std::size_t>(p)].name != name) continue;
-      for (int body = LinkageSketch::frame; body < static_cast<int>(s_.links.size()); ++body)
-        if (s_.has(body, p)) return LinkageTravel::Place{body, p};
+      std::vector<std::string> bodies;
+      for (int body = LinkageSketch::frame; body < static_cast<int>(s_.links.size()); ++body) {
+        if (!s_.has(body, p)) continue;
+        if (link.empty() || s_.name_of(body) == link) return LinkageTravel::Place{body, p};
+        bodies.push_back(s_.name_of(body));
+      }
+      k.refuse(member, not_through(name, link, bodies));
+      return {};
     }
     k.refuse(member, fmt::format("unknown point \"{}\"{}; the sketch has {}", name,
                                  suggestion(name, names_of(s_.points)), shortened_list(names_of(s_.points), "and")));
     return {};
+  }
+  static std::string not_through(const std::string& point, const std::string& link,
+                                 const std::vector<std::string>& bodies) {
+    return fmt::format("the point {} is not on \"{}\"; links through it are {}", point, link,
+                       shortened_list(bodies, "and"));
   }
   // "B", or of a pin the link that it acts on, too: "rocker B". Along a path a link that guides the pin comes first: with it
   // the sense of the motion is known.
@@ -203,18 +223,22 @@ class LinkageForceBuilder {
         place->body = link;
     }
     if (parts.size() == 1 || s_.name_of(place->body) == parts[0]) return place;
-    k.refuse(on, fmt::format("the point {} is not on \"{}\"; links through it are {}", parts[1], parts[0],
-                             shortened_list(links, "and")));
+    k.refuse(on, not_through(parts[1], parts[0], links));
     return {};
   }
   template <class K, class M>
   std::optional<LinkageTravel> between(const K& k, M member, const std::string& text) const {
-    const std::vector<std::string> two = words_in(text);
-    if (two.size() != 2 || two[0] == two[1]) {
-      k.refuse(member, "must name two points");
+    std::vector<std::string> two, links;
+    for (const std::string& word : words_in(text)) {
+      const bool is_link = named(s_.links, word) && (links.size() == two.size()) && !named(s_.points, word);
+      if (links.size() == two.size()) links.emplace_back();
+      (is_link ? links.back() : two.emplace_back()) = word;
+    }
+    if (two.size() != 2 || links.size() != 2 || two[0] == two[1]) {
+      k.refuse(member, "must name two points, of a pin with the link before it: \"A C\" or \"rod A barrel C\"");
       return {};
     }
-    const auto from = place_of(k, member, two[0]), to = place_of(k, member, two[1]);
+    const auto from = place_of(k, member, two[0], links[0]), to = place_of(k, member, two[1], links[1]);
     if (!from || !to) return {};
     for (int body = LinkageSketch::frame; body < static_cast<int>(s_.links.size()); ++body)
       if (s_.has(body, from->point) && s_.has(body, to->point)) {

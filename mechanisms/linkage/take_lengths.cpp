@@ -91,9 +91,9 @@ class LengthsTaker {
     for (std::size_t k = 0; k < s_.links.size(); ++k) keep_body(static_cast<int>(k), s_.links[k].points);
     for (const LinkageSketch::Slide& slide : s_.slides) keep_slide(slide);
     if (faults_.empty() && !solve())
-      faults_.push_back({"lengths",
-                         "the linkage cannot be closed near to the sketch with these lengths; draw it in a "
-                         "position that is clearer, or check them"});
+      faults_.push_back({"lengths", fmt::format("the linkage cannot be closed near to the sketch with these lengths{}; "
+                                                "draw it in a position that is clearer, or check them",
+                                                kept_.empty() ? "" : " and with " + kept_ + " as drawn")});
     if (faults_.empty()) put();
     return faults_;
   }
@@ -132,6 +132,9 @@ class LengthsTaker {
       if (factors.rank() == more.rows()) {
         rows = more;
         conditions_.push_back(condition);
+        if (!side.given && !sides.empty() && sides.front().given)
+          kept_ += fmt::format("{}{}{}", kept_.empty() ? "" : ", ", s_.points[index(side.a)].name,
+                               s_.points[index(side.b)].name);
       } else if (side.given) {
         faults_.push_back(
             {"lengths." + side.given->name,
@@ -257,6 +260,7 @@ class LengthsTaker {
   Unknowns q_, drawn_;
   long double size_ = 0;
   std::vector<Condition> conditions_;
+  std::string kept_;  // sides that keep the drawn length in a body of which others are given
   LinkageFaults faults_;
 };
 

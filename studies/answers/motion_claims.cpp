@@ -155,8 +155,9 @@ class Judge {
     const double torque = drive();
     if (torque == 0) return {};
     const double degrees = angle() * 180 / std::numbers::pi;
-    std::string why = fmt::format("{} can hold the {:.4g} N·m that drive there, and holds them to the end",
-                                  holders_beside("the load"), torque);
+    std::string why = fmt::format(
+        "{} can hold the {:.4g} N·m that drive there, and holds them to the end",
+        holders_beside(m_.effects.joint_friction ? "the loads and the friction in joints" : "the load"), torque);
     for (Claim& claim : contacts)
       if (claim.predicate == Predicate::slips_to_the_end && m_.network.kind_of(claim.of) != "brake")
         why = claim.text, claim.in_conclusion = false;
@@ -314,9 +315,10 @@ class Judge {
     const std::string* brake = brake_that_holds();
     return claimed(
         Predicate::does_not_get_round,
-        fmt::format("\"{}\" does not complete a cycle: it is at {:.1f}° at the end, with {}, where {} N·m drive it{}",
-                    link(), angle() * 180 / std::numbers::pi, m_.scene.speed_unit.text(speed()), drive(),
-                    brake ? fmt::format(" and \"{}\" holds it", *brake) : ""),
+        fmt::format(
+            "\"{}\" does not complete a cycle: it is at {:.1f}° at the end, with {}, where the drive gives {} N·m{}",
+            link(), angle() * 180 / std::numbers::pi, m_.scene.speed_unit.text(speed()), drive(),
+            brake ? fmt::format(" and \"{}\" holds it", *brake) : ""),
         link(), {.at = outcome_.t, .value = std::abs(drive()), .limit = 0, .unit = "N*m"});
   }
 

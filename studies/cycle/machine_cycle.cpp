@@ -72,6 +72,11 @@ void set_slopes(RigidMachine& machine, OperatingSpeed& found) {
   const auto best = std::max_element(scan.begin(), scan.end(),
                                      [](const Balance& a, const Balance& b) { return a.mean.net() < b.mean.net(); });
   const SpeedUnit& unit = machine.model().scene.speed_unit;
+  if (std::all_of(scan.begin(), scan.end(), [](const Balance& b) { return b.mean.drive < 0; }))
+    throw WeakDrive(fmt::format(
+        "the drive turns the machine backwards: its mean torque is {:.4g} N·m at {}, and negative at every forward "
+        "speed, at which alone a balance is sought; give --mid-speed, or let its torque drive forwards",
+        scan.front().mean.drive, unit.text(scan.front().speed)));
   if (best->mean.net() > 0)
     throw std::invalid_argument(fmt::format(
         "no speed up to {} balances the machine: the drive gives more there than the load takes, at the end "

@@ -274,8 +274,11 @@ std::optional<double> operating_speed_of(const MachineMotion& machine) try {
 
 CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& options) {
   if (options.speed) return {*options.speed, "as requested"};
-  if (const std::optional<double> operating = operating_speed_of(machine))
-    return {*operating, "the operating speed, at which the mean torques of drive and load balance"};
+  if (const std::optional<double> operating = operating_speed_of(machine)) {
+    const std::vector<std::string> beyond = beyond_the_rigid_machine(machine.model().scene);
+    return {*operating, "the operating speed, at which the mean torques of drive and load balance" +
+                            (beyond.empty() ? "" : fmt::format(" (not contained: {})", fmt::join(beyond, ", ")))};
+  }
   if (const double start = machine.start_speed(); start != 0) return {start, "the scene's start speed"};
   const OperatingSpeeds run = operating_speeds(machine.model(), {}, {});
   const double to_crank = machine.rated_speed() / machine.model().speed_scale;

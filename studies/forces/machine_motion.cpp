@@ -56,8 +56,11 @@ std::vector<double> edges_of_all(const std::vector<double>& loads, double cycle,
 
 MachineMotion::Crank MachineMotion::crank_in(const Model& model, const std::string& component) {
   const Network::ShaftElement& element = mechanism_element(model.network, component);
+  // Cranks on one shaft share its angle.
+  const int shaft = model.shaft_of_node[at(element.node)];
   for (std::size_t i = 0; i < model.angles.size(); ++i)
-    if (model.angles[i].node == element.node) return {element.node, i, element.phase};
+    if (model.angles[i].shaft == shaft && model.angles[i].gain == model.gain_of_node[at(element.node)])
+      return {element.node, i, element.phase};
   throw std::logic_error("the crank's angle is not tracked");
 }
 

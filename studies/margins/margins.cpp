@@ -78,13 +78,16 @@ OperatingSpeeds operating_speeds(const Model& m, std::optional<double> asked, st
     return speeds;
   }
   if (asked && *asked != 0) return one(*asked, "requested");
-  for (const MotorTorque& motor : m.motors) {
-    const InductionData* data =
-        m.network.data.find<InductionData>(motor.component);  // else its synchronous speed counts
-    const double rated = data ? data->rated_speed : motor.rated_speed, ratio = std::abs(m.node_ratio[at(motor.node)]);
-    if (rated != 0 && ratio > 0 && !motor.prescribed) return one(rated / ratio, "rated speed of " + motor.component);
+  // Only induction motors have a rated speed; that of others is the scale of their data, without load or at a table's end.
+  for (const bool by_data : {true, false}) {
+    for (const MotorTorque& motor : m.motors) {
+      const InductionData* data = m.network.data.find<InductionData>(motor.component);
+      const double speed = data ? data->rated_speed : motor.rated_speed, ratio = std::abs(m.node_ratio[at(motor.node)]);
+      if (speed != 0 && ratio > 0 && !motor.prescribed && (data != nullptr) == by_data)
+        return one(speed / ratio, (data ? "rated speed of " : "reference speed of ") + motor.component);
+    }
+    if (by_data && otherwise && *otherwise != 0) return one(*otherwise, "of the steady motion");
   }
-  if (otherwise && *otherwise != 0) return one(*otherwise, "of the steady motion");
   if (m.scene.run.start.speed != 0) return one(usual_speed(m), "of the start");
   return speeds;
 }

@@ -95,7 +95,7 @@ std::string dwell(const Mechanism& m) {
   for (const Dwell& d : dwells_of(m, share))
     ranges += fmt::format("{}{:.4g}° from φ = {} to {}", ranges.empty() ? "" : ", ", (d.to - d.from) / degree,
                           degrees(d.from), degrees(d.to));
-  return fmt::format("dwells within {:g} % of its {} where it reverses: over {}", 100 * share,
+  return fmt::format("dwells, no farther from its reversal than {:g} % of its {}: over {}", 100 * share,
                      m.rocks() ? "swing" : "stroke", ranges);
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "engine/numerics/angles.h"
@@ -255,11 +256,15 @@ class Reducer : MachineOnBasis {
     constexpr std::pair<const char*, const char*> named[] = {
         {"reduced inertia I_r", "kg*m2"}, {"driving torque M_d", "N*m"}, {"resisting torque M_c", "N*m"}};
     const int orders = static_cast<int>(std::lround(options_.orders * r_.cycle / turn));
+    // What rounding leaves of the machine's torques where they cancel.
+    const double dust = 16 * std::numeric_limits<double>::epsilon() * model().torque_scale;
     for (std::size_t i = 0; i < fine.size(); ++i) {
       Spectrum s = spectrum(named[i].first, named[i].second, fine[i], orders);
       if (loose) {
         const Spectrum other = spectrum(named[i].first, named[i].second, (*loose)[i], orders);
-        const double left = rounding * std::sqrt(s.mean_square) + (i > 0 || along_ ? within() : 0) * fine[i].largest();
+        const double left =
+            std::max(rounding * std::sqrt(s.mean_square) + (i > 0 || along_ ? within() : 0) * fine[i].largest(),
+                     i > 0 ? dust : 0);
         for (std::size_t n = 0; n < s.harmonics.size(); ++n)
           s.harmonics[n].amplitude =
               estimate_from(s.harmonics[n].amplitude.value, other.harmonics[n].amplitude.value, left);
@@ -275,7 +280,8 @@ class Reducer : MachineOnBasis {
     r_.mean_load.value = fine[2].mean();
     if (!loose) return;
     r_.inertia_error = largest_difference(fine[0], (*loose)[0]) + (along_ ? within() * fine[0].largest() : 0);
-    const double drive = within() * fine[1].largest(), load = within() * fine[2].largest();
+    const double drive = std::max(within() * fine[1].largest(), dust),
+                 load = std::max(within() * fine[2].largest(), dust);
     r_.drive_error = largest_difference(fine[1], (*loose)[1]) + drive;
     r_.load_error = largest_difference(fine[2], (*loose)[2]) + load;
     r_.mean_drive = estimate_from(r_.mean_drive.value, (*loose)[1].mean(), rounding * fine[1].largest() + drive);

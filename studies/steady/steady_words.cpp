@@ -161,12 +161,14 @@ std::vector<std::string> words_of_diagram(const SteadyStudy& s) {
                     d.estimate ? "about " : "", with_error(p.speed / d.speed_unit.size, d.speed_unit.name),
                     p.torque.value == 0 ? "0 N·m" : with_error(p.torque, "N*m"), p.stable() ? "stable" : "unstable",
                     beside(p.drive_slope, p.load_slope), p.stable() ? "<" : "≥", beside(p.load_slope, p.drive_slope))));
-  if (const OperatingPoint* p = d.working_point(); p && d.margin(*p).value > 1 + 1e-6)
+  // A mean that suffices does not carry the machine over every peak: no margin of what stalls.
+  const bool runs = std::any_of(s.cycles.begin(), s.cycles.end(), [](const SteadyCycle& c) { return c.found; });
+  if (const OperatingPoint* p = d.working_point(); runs && p && d.margin(*p).value > 1 + 1e-6)
     words.push_back(headline(
         fmt::format("Margin: the drive's mean torque is at most {} (at {}), {}", with_unit(d.strongest.value, "N*m"),
                     std::abs(d.strongest_at) < 1e-4 * p->speed.value ? "standstill" : d.speed_unit.text(d.strongest_at),
                     std::isfinite(d.margin(*p).value) ? with_error(d.margin(*p), "") + " times what the load needs"
-                                                      : "and it needs nothing")));
+                                                      : "and the loads' mean torque is zero")));
   if (const std::string none = d.why_none(s.link); !none.empty() && d.uses_speed) words.push_back(none);
   return words;
 }

@@ -402,6 +402,7 @@ TEST(LinkForcesKeys, FaultsSayWhatAndWhere) {
   };
   expect("[m.springs]\ns = { between = \"Y Q\", stiffness = \"1 N/m\" }", "unknown point \"Q\"");
   expect("[m.springs]\ns = { between = \"Y\", stiffness = \"1 N/m\" }", "must name two points");
+  expect("[m.springs]\ns = { between = \"crank F yoke Y\", stiffness = \"1 N/m\" }", "F is not on \"crank\"");
   expect("[m.springs]\ns = { between = \"O F\", stiffness = \"1 N/m\" }", "O and F keep their distance on the frame");
   expect("[m.springs]\ns = { between = \"O A\", stiffness = \"1 N/m\" }", "keep their distance on the crank");
   expect("[m.springs]\ns = { between = \"Y F\" }", "is no spring and no damper");

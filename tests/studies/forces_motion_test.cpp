@@ -272,6 +272,46 @@ until = "1 s"
   EXPECT_EQ(fast.simulated->positions.size(), 1441U);
 }
 
+// Two like throws at 180° on one shaft: all that the shaft feels has the period of half a turn, so that at the same angle of
+// its own crank each throw has the reactions of the other.
+TEST(ForcesOfTheSteadyMotion, ThrowsOnOneShaftAreAskedForEach) {
+  std::string text = R"(
+line = ["motor", "left", "right"]
+[motor]
+kind = "dc shunt motor"
+stall_torque = "100 N*m"
+no_load_speed = "40 rad/s"
+inertia = "0.3 kg*m2"
+[run]
+start = { speed = "30 rad/s" }
+until = "1 s"
+)";
+  for (const auto& [name, phase] : {std::pair("left", 0), std::pair("right", 180)})
+    text += fmt::format(R"(
+[{}]
+kind = "slider-crank"
+radius = "60 mm"
+rod = "200 mm"
+crank_inertia = "0.05 kg*m2"
+rod_mass = "1 kg"
+rod_inertia = "0.01 kg*m2"
+slider_mass = "2 kg"
+phase = "{} deg"
+load = {{ kind = "medium", viscous = "300 N*s/m" }}
+)",
+                        name, phase);
+  const Scene scene = test::scene_from(text);
+  ForcesOptions left, right;
+  left.mechanism = "left", right.mechanism = "right";
+  const Forces a = find_forces(scene, left), b = find_forces(scene, right);
+  ASSERT_TRUE(a.simulated && b.simulated);
+  ASSERT_EQ(a.simulated->reactions.size(), b.simulated->reactions.size());
+  for (std::size_t k = 0; k < a.simulated->reactions.size(); ++k)
+    EXPECT_NEAR(b.simulated->reactions[k].peak.value, a.simulated->reactions[k].peak.value,
+                1e-6 * std::abs(a.simulated->reactions[k].peak.value))
+        << a.simulated->reactions[k].name;
+}
+
 // --positions chooses rows of a table and nothing else, in the simulated motion of every mechanism.
 TEST(ForcesOfTheSteadyMotion, HavePeaksThatNoPositionsMove) {
   for (const char* name : {"four_bar_small", "knuckle_small", "whitworth_small"}) {

@@ -250,6 +250,47 @@ start = { speed = "30 rad/s" }
   EXPECT_LT(c.power_residual, 1e-12);
 }
 
+// A pump's barrel swings about C, the oil acts along A C. On rod and barrel it goes through the pins A and C, on crank and frame, the
+// first bodies there, through none of them.
+TEST(ForcesInALinkage, ActOnTheLinksThatAreNamedAtAPin) {
+  const auto reaction_of_the_rods_pin = [](const char* between) {
+    const Scene scene = test::scene_from(fmt::format(R"(
+line = ["motor", "pump"]
+[motor]
+kind = "motor"
+torque = {{ over = "speed", unit = ["rad/s", "N*m"], points = [[0, 400], [30, -400]] }}
+inertia = "1 kg*m2"
+[pump]
+kind = "linkage"
+unit = "mm"
+points = {{ O = [0, 0], A = [40, 0], C = [200, 0], P = [60, 0], Q = [180, 0] }}
+frame = "O C"
+slides = {{ rod = {{ on = "barrel", through = "A C" }} }}
+output = "A"
+[pump.links]
+crank = {{ points = "O A", mass = "1 g", inertia = "1 g*m2" }}
+rod = {{ points = "A P", mass = "1e-6 kg", inertia = "1e-9 kg*m2" }}
+barrel = {{ points = "C Q", mass = "1e-6 kg", inertia = "1e-9 kg*m2" }}
+[pump.forces]
+oil = {{ between = "{}", load = {{ kind = "constant", force = "2 kN" }} }}
+[run]
+start = {{ speed = "1 rad/s" }}
+until = "1 s"
+)",
+                                                     between));
+    ForcesOptions options;
+    options.simulate = false, options.speed = 1;
+    const Forces forces = find_forces(scene, options);
+    for (const auto& reaction : forces.front().reactions)
+      if (reaction.name.ends_with(" A")) return reaction.peak.value;
+    for (const auto& reaction : forces.front().reactions) ADD_FAILURE() << reaction.name;
+    return 0.0;
+  };
+  EXPECT_NEAR(reaction_of_the_rods_pin("rod A barrel C"), 2000, 1e-3);
+  EXPECT_NEAR(reaction_of_the_rods_pin("P Q"), 2000, 1e-3);  // points on the slide's line
+  EXPECT_LT(reaction_of_the_rods_pin("A C"), 1e-3);
+}
+
 // Friction in the joints of a four-bar: the machine moves as its links need it, and what goes in is used or lost.
 TEST(ForcesInALinkage, HaveTheFrictionOfTheJoints) {
   std::string rough = rocker;

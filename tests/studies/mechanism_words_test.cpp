@@ -79,7 +79,7 @@ std::string dwell(const Output& x, std::vector<double> ends, const std::string& 
     text += fmt::format("{}{:.4g}° from φ = {} to {}", text.empty() ? "" : ", ", (to - from) * 180 / pi, degrees(from),
                         degrees(to));
   }
-  return "m: dwells within 1 % of its " + what + " where it reverses: over " + text;
+  return "m: dwells, no farther from its reversal than 1 % of its " + what + ": over " + text;
 }
 
 // x = r cos φ + √(l² − (r sin φ − e)²), crank and rod in line at both ends; the rod is steepest with the crank upright.
@@ -104,9 +104,10 @@ TEST(MechanismWords, OfAScotchYokesDwell) {
       "links = { crank = { points = \"O A\", mass = \"1 kg\", inertia = \"0.5 kg*m2\" }, block = \"A\", yoke = { "
       "points = \"Y\", mass = \"2 kg\" } }",
       3,
-      {fmt::format("m: dwells within 1 % of its stroke where it reverses: over {:.4g}° from φ = {:.5g}° to {:.5g}°, "
-                   "{:.4g}° from φ = {:.5g}° to {:.5g}°",
-                   2 * half, 360 - half, half, 2 * half, 180 - half, 180 + half)});
+      {fmt::format(
+          "m: dwells, no farther from its reversal than 1 % of its stroke: over {:.4g}° from φ = {:.5g}° to {:.5g}°, "
+          "{:.4g}° from φ = {:.5g}° to {:.5g}°",
+          2 * half, 360 - half, half, 2 * half, 180 - half, 180 + half)});
 }
 
 // A dead centre at 4e-13° by rounding stands at 0°.
