@@ -354,7 +354,8 @@ class Study {
       found_.sweep.push_back(respond_at(speeds[i]));
     }
     if (!options_.response_alone) sweep_as_if_rigid();
-    measure_critical_speeds([this](double speed) { return respond_at(speed); }, found_);
+    measure_critical_speeds([this](double speed) { return respond_at(speed); },
+                            [this](double part) { options_.watch.at("largest responses", 0.8 + 0.05 * part); }, found_);
     omit_speeds_not_held(found_);
   }
 
