@@ -259,6 +259,7 @@ std::vector<CrossingResponse> responses_of(const ModesStudy& found) {
                    .harmonic = c.harmonic,
                    .joint = found.joint_names[c.joint],
                    .amplitude = c.amplitude,
+                   .peak = c.peak,
                    .share = c.share,
                    .not_assessed = why});
   };
