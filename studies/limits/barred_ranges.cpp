@@ -180,6 +180,7 @@ std::vector<BarredRange> barred_ranges(const std::vector<LimitedJoint>& joints, 
   if (sweep.empty()) return ranges;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const LimitedJoint& joint = joints[j];
+    if (joint.beside_middle) continue;
     const auto along = [&](BarredRange::By by, auto use) {
       Along(
           j, by, [&, j, use](const SpeedLoads& loads) { return use(loads.joints[j]); }, sweep, at, ranges)
@@ -195,7 +196,6 @@ std::vector<BarredRange> barred_ranges(const std::vector<LimitedJoint>& joints, 
   return ranges;
 }
 
-double share_of_bearable(const LimitedJoint& joint, const JointLoad& load, double speed, double factor) {
 std::vector<BarredRange> beyond_by_mean(const std::vector<LimitedJoint>& joints, const std::vector<SpeedLoads>& sweep,
                                         const std::function<std::vector<JointLoad>(double)>& at) {
   std::vector<BarredRange> ranges;
@@ -207,6 +207,7 @@ std::vector<BarredRange> beyond_by_mean(const std::vector<LimitedJoint>& joints,
   return ranges;
 }
 
+double share_of_bearable(const LimitedJoint& joint, const JointLoad& load, double speed, double factor) {
   if (!joint.limits.any()) return by_rule(joint, load, factor).share();
   const double share = by_limits(joint, load).share();
   return joint.limits.shaft.is_of_propulsion() ? std::max(share, by_class(joint, load, speed).share()) : share;

@@ -159,11 +159,11 @@ void find_rows(const std::vector<CrossingResponse>& responses, double slowest, d
 
 namespace {
 
-// "shaft" of "shaft.4": a continuous shaft is divided into joints.
+// "shaft" of "shaft, segment 4", and of "belt.2".
 std::string whole(const std::string& joint) {
   const std::size_t dot = joint.find_last_of('.');
   const bool piece = dot != std::string::npos && joint.find_first_not_of("0123456789", dot + 1) == std::string::npos;
-  return piece ? joint.substr(0, dot) : joint;
+  return joint.substr(0, piece ? dot : joint.find(", segment "));
 }
 
 }  // namespace
