@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "engine/numerics/roots.h"
 
 namespace kurbel {
 namespace {
 
-constexpr double nothing = 1e-6;     // of the rated torque: a swing below it is none
+constexpr double nothing = 1e-6;     // of the rated torque: an amplitude below it is none
 constexpr double end_within = 1e-6;  // of the limit: where the load is so near to it, a range ends
 
 // A load and its allowable value [N·m].
@@ -22,20 +23,25 @@ struct Use {
   double excess() const { return load - limit; }
   double share() const { return limit > 0 ? load / limit : load > 0 ? HUGE_VAL : 0; }
 };
+const Use none{0, HUGE_VAL, ""};
+
+// Limits of the torque itself, without the factors of a standard [N·m]; 0: not given.
+double most_torque(const DriveLimits& l) { return l.maximum / l.temperature_factor; }
+double most_by_shear(const DriveLimits& l) { return l.shear_stress * l.polar_modulus / l.application_factor; }
 
 // By the limit with the highest utilisation; factors of a standard reduce the limit, so that loads are torques. Not by T_KN: at
 // speeds that are not held, the mean torque is the accelerating excess of drive over load, not that at constant speed.
 Use by_limits(const LimitedJoint& joint, const JointLoad& load) {
   const DriveLimits& l = joint.limits;
-  Use most{0, HUGE_VAL, ""};
+  Use most = none;
   const auto consider = [&](double torque, double limit, const char* reason) {
     if (limit > 0 && (most.reason.empty() || torque / limit > most.share())) most = {torque, limit, reason};
   };
   const double largest = std::abs(load.largest().value);
   consider(load.vibratory.value, l.vibratory / (l.temperature_factor * l.frequency_factor(load.frequency_factor)),
            "vibratory_torque");
-  consider(largest, l.maximum / l.temperature_factor, "maximum_torque");
-  consider(largest, l.shear_stress * l.polar_modulus / l.application_factor, "allowable_shear_stress");
+  consider(largest, most_torque(l), "maximum_torque");
+  consider(largest, most_by_shear(l), "allowable_shear_stress");
   const double amplitude = load.amplitude().value;
   if (l.shaft.vibratory) consider(amplitude, *l.shaft.vibratory * l.polar_modulus, "allowable_vibratory_stress");
   if (l.shaft.endurance)
@@ -48,13 +54,31 @@ Use by_limits(const LimitedJoint& joint, const JointLoad& load) {
   return most;
 }
 
+// By the lower limit of the torque itself: the mean alone.
+Use by_mean(const LimitedJoint& joint, const JointLoad& load) {
+  Use use = none;
+  for (const auto& [limit, reason] : {std::pair(most_torque(joint.limits), "maximum_torque"),
+                                      std::pair(most_by_shear(joint.limits), "allowable_shear_stress")})
+    if (limit > 0 && limit < use.limit) use = {std::abs(load.mean.value), limit, reason};
+  return use;
+}
+
+// Of what alternates: a mean beyond a limit bars nothing.
+Use by_vibration(LimitedJoint joint, const JointLoad& load) {
+  if (!(load.vibratory.value > nothing * joint.rated)) return none;
+  const double mean = std::abs(load.mean.value);
+  if (mean >= most_torque(joint.limits)) joint.limits.maximum = 0;
+  if (mean >= most_by_shear(joint.limits)) joint.limits.shear_stress = 0;
+  return by_limits(joint, load);
+}
+
 Use by_class(const LimitedJoint& joint, const JointLoad& load, double speed) {
   return {load.amplitude().value, joint.continuous(speed) * joint.limits.polar_modulus, "UR M68"};
 }
 
 Use by_rule(const LimitedJoint& joint, const JointLoad& load, double factor) {
   const double mean = std::abs(load.mean.value);
-  if (joint.stands) return {0, HUGE_VAL, ""};
+  if (joint.stands) return none;
   return {load.vibratory.value, factor * std::max(mean, joint.rated),
           fmt::format("{:g} × {} torque", factor, mean > joint.rated ? "mean" : "rated")};
 }
@@ -156,6 +180,7 @@ std::vector<BarredRange> barred_ranges(const std::vector<LimitedJoint>& joints, 
   if (sweep.empty()) return ranges;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const LimitedJoint& joint = joints[j];
+    if (joint.beside_middle) continue;
     const auto along = [&](BarredRange::By by, auto use) {
       Along(
           j, by, [&, j, use](const SpeedLoads& loads) { return use(loads.joints[j]); }, sweep, at, ranges)
@@ -163,11 +188,22 @@ std::vector<BarredRange> barred_ranges(const std::vector<LimitedJoint>& joints, 
     };
     if (joint.limits.shaft.is_of_propulsion()) bar_by_class(joint, j, sweep, at, ranges);
     if (joint.limits.any())
-      along(BarredRange::By::limit, [&](const JointLoad& load) { return by_limits(joint, load); });
+      along(BarredRange::By::limit, [&](const JointLoad& load) { return by_vibration(joint, load); });
     else
       along(BarredRange::By::rule, [&](const JointLoad& load) { return by_rule(joint, load, factor); });
     if (joint.has_play) along(BarredRange::By::sign, [&](const JointLoad& load) { return by_sign(joint, load); });
   }
+  return ranges;
+}
+
+std::vector<BarredRange> beyond_by_mean(const std::vector<LimitedJoint>& joints, const std::vector<SpeedLoads>& sweep,
+                                        const std::function<std::vector<JointLoad>(double)>& at) {
+  std::vector<BarredRange> ranges;
+  for (std::size_t j = 0; j < joints.size() && !sweep.empty(); ++j)
+    Along(
+        j, BarredRange::By::limit, [&, j](const SpeedLoads& loads) { return by_mean(joints[j], loads.joints[j]); },
+        sweep, at, ranges)
+        .go();
   return ranges;
 }
 

@@ -1,7 +1,8 @@
 // barred_ranges.h — speed ranges in which the drive must not run continuously.
 //
-// A joint with limits is barred where its steady load exceeds any of them except T_KN (theory 12.9). A joint without
-// limits is barred by a rule:
+// A joint with limits is barred where its vibration lifts its steady load above any of them except T_KN (theory 12.9):
+// nothing is barred where nothing excites, nor where the mean torque, which at speeds that are not held accelerates
+// the machine, is beyond a limit by itself. A joint without limits is barred by a rule:
 //     T_W > f · max(|T_mean|, T_rated)                                                 (theory 12.12)
 // Loads are torques without the factors of a standard; these reduce the limit instead: T_W ≤ T_KW/(S_t S_f).
 // A ship's shaft is barred where its stress exceeds τ_C of UR M68, which falls with the speed; around a resonance at
@@ -41,6 +42,10 @@ struct SpeedLoads {
 std::vector<BarredRange> barred_ranges(const std::vector<LimitedJoint>& joints, const std::vector<SpeedLoads>& sweep,
                                        double factor,
                                        const std::function<std::vector<JointLoad>(double speed)>& at = {});
+
+// Ranges in which the mean torque alone is beyond the maximum torque or the shear stress: they are not assessed.
+std::vector<BarredRange> beyond_by_mean(const std::vector<LimitedJoint>& joints, const std::vector<SpeedLoads>& sweep,
+                                        const std::function<std::vector<JointLoad>(double speed)>& at = {});
 
 // Load of a joint over its allowable load at one speed of the link: for the limit with the highest utilisation;
 // without limits, for that of the rule.

@@ -14,6 +14,7 @@
 #include "engine/base/find_by.h"
 #include "engine/base/gauss.h"
 #include "engine/numerics/index.h"
+#include "engine/numerics/lobatto_element.h"
 #include "engine/orbit/follow_period.h"
 #include "engine/values/dense_tables.h"
 
@@ -178,8 +179,35 @@ SteadyLoads constant_loads(const Orbit& orbit, const std::shared_ptr<const Model
 
 }  // namespace
 
+std::vector<std::string> names_of_joints(const Model& model) {
+  std::vector<std::string> names = model.joint_names();
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    const Network::Joint& joint = model.network.joints[at(model.elastic[j].joint)];
+    if (joint.chain >= 0 && names[j] != joint.component)
+      names[j] = joint.component + ", segment " + names[j].substr(joint.component.size() + 1);
+  }
+  return names;
+}
+
+std::vector<std::string> names_of_nodes(const Model& model) {
+  std::vector<std::string> names;
+  for (std::size_t n = 0; n < model.network.nodes.size(); ++n) names.push_back(model.node_label(static_cast<int>(n)));
+  for (const Network::Chain& chain : model.network.chains) {
+    const auto* shaft = model.network.data.find<ShaftKeys>(chain.component);
+    const std::size_t parts = chain.nodes.size() - 1;
+    for (std::size_t i = 1; i < parts; ++i) {
+      const double place = chain.degree > 0 ? lobatto_element(chain.degree).place[i]
+                                            : static_cast<double>(i) / static_cast<double>(parts);
+      names[at(chain.nodes[i])] = chain.component + ", station at " +
+                                  (shaft && shaft->length ? fmt::format("{:.4g} m", place * *shaft->length)
+                                                          : fmt::format("{:.3g} % of its length", 100 * place));
+    }
+  }
+  return names;
+}
+
 std::vector<LimitedJoint> limited_joints(const Model& model) {
-  const std::vector<std::string> names = model.joint_names();
+  const std::vector<std::string> names = names_of_joints(model);
   std::vector<LimitedJoint> joints;
   for (const ElasticJoint& e : model.elastic) {
     const Network::Joint& joint = model.network.joints[at(e.joint)];
@@ -190,8 +218,8 @@ std::vector<LimitedJoint> limited_joints(const Model& model) {
     one.rated = model.torque_scale / model.scale_ratio[at(joint.a)];
     one.turns = std::abs(model.node_ratio[at(joint.a)]);
     one.loss_account = e.loss_account;
-    const bool beside = joint.element->row && one.name != one.component;  // a continuous shaft is judged in its middle
-    if (!beside) {
+    one.beside_middle = joint.element->row && one.name != one.component;
+    if (!one.beside_middle) {
       one.limits = stated_limits(model.network.data, joint.component);
       one.has_play = model.network.data.find<StatedPlay>(joint.component) != nullptr;
     }

@@ -33,6 +33,7 @@ struct LimitedJoint {
   std::string component;
   int joint = 0;                 // in the network
   ReportedTorque reported = {};  // the joint's torque
+  bool beside_middle = false;    // of a continuous shaft, which is judged in its middle
   bool stands = false;           // it holds a stationary part (housing): the drive's rated torque does not apply
   double rated = 0;              // torque of the drive at its rated point, reduced to this joint [N·m]
   double turns = 0;              // its speed over the reduction link's
@@ -45,6 +46,11 @@ struct LimitedJoint {
   double continuous(double speed) const { return limits.shaft.continuous(limits.diameter, speed_ratio(speed)); }
   double transient(double speed) const { return limits.shaft.transient(limits.diameter, speed_ratio(speed)); }
 };
+
+// Names of all elastic joints, in the order of the model, and of all nodes. A divided shaft has "shaft, segment 2" and
+// "shaft, station at 0.4 m"; the middle segment of a continuous one has the shaft's name.
+std::vector<std::string> names_of_joints(const Model& model);
+std::vector<std::string> names_of_nodes(const Model& model);
 
 // Of all elastic joints of a model, in its order.
 std::vector<LimitedJoint> limited_joints(const Model& model);

@@ -16,6 +16,7 @@ namespace kurbel {
 namespace {
 
 constexpr double rounding = 1e-9;          // a margin that is met but for this is kept
+constexpr double visible = 5e-4;           // of a speed: that of the largest response is stated
 constexpr std::size_t samples = 8192;      // of all tolerances together
 constexpr double moves = 1e-12;            // of a natural frequency: less is rounding
 constexpr double of_weight = 0.02;         // share of a mode's damping that is reported
@@ -142,9 +143,14 @@ void find_rows(const std::vector<CrossingResponse>& responses, double slowest, d
       Margin row{.mode = m, .line = l};
       if (!meets.empty()) row.crossing = meets.front();
       if (meets.size() > 1) row.further_crossing = meets.back();
-      row.margin = margin_of(omega, margins.lines[l], margins.speeds);
-      row.within = std::abs(row.margin) < margins.speeds.margin * (1 - rounding);
       find_response(responses, slowest, fastest, margins, row);
+      if (row.not_assessed.empty() && row.crossing && row.response->peak &&
+          std::abs(*row.response->peak / *row.crossing - 1) > visible)
+        row.largest = row.response->peak;
+      row.omega = row.largest ? margins.lines[l].at(*row.largest) : omega;
+      row.margin = margin_of(row.omega, margins.lines[l], margins.speeds);
+      row.undamped = margin_of(omega, margins.lines[l], margins.speeds);
+      row.within = std::abs(row.margin) < margins.speeds.margin * (1 - rounding);
       margins.rows.push_back(std::move(row));
     }
   const auto place = [&](const Margin& row) {
@@ -156,11 +162,11 @@ void find_rows(const std::vector<CrossingResponse>& responses, double slowest, d
 
 namespace {
 
-// "shaft" of "shaft.4": a continuous shaft is divided into joints.
+// "shaft" of "shaft, segment 4", and of "belt.2".
 std::string whole(const std::string& joint) {
   const std::size_t dot = joint.find_last_of('.');
   const bool piece = dot != std::string::npos && joint.find_first_not_of("0123456789", dot + 1) == std::string::npos;
-  return piece ? joint.substr(0, dot) : joint;
+  return joint.substr(0, piece ? dot : joint.find(", segment "));
 }
 
 }  // namespace
@@ -237,8 +243,7 @@ void add_tolerances(const std::vector<Tolerance>& tolerances,
   if (margins.tolerances.empty()) return;
   for (std::vector<double>& of_mode : log_factor)
     for (double& f : of_mode) f = std::exp(f);
-  for (Margin& row : margins.rows)
-    count(log_factor[row.mode], margins.modes[row.mode].omega, margins.lines[row.line], margins.speeds, row);
+  for (Margin& row : margins.rows) count(log_factor[row.mode], row.omega, margins.lines[row.line], margins.speeds, row);
 }
 
 }  // namespace kurbel

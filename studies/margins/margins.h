@@ -3,7 +3,8 @@
 //     margin of mode n and excitation f(Ω) = |a Ω + b| over the operating speeds Ω₁ … Ω₂:
 //     (ω_n − f)/f of the nearest f there; 0 if ω_n lies between them           (theory 12.17)
 // For an order, b = 0, this is n_c/n − 1 with the crossing speed n_c and the nearest operating speed n. ω_n follows
-// from springs and inertias alone, without slopes of motor curves and windings.
+// from springs and inertias alone, without slopes of motor curves and windings. Where the response is assessed and
+// damping moves its largest value away from n_c, n_c is the speed of that largest value.
 #pragma once
 
 #include <functional>
@@ -46,6 +47,7 @@ struct CrossingResponse {
   double fixed = 0;          // the fixed frequency [rad/s]
   std::string joint = {};
   double amplitude = 0;                                     // [N·m]
+  std::optional<double> peak = {};                          // speed at which it is largest [rad/s]
   double share = std::numeric_limits<double>::quiet_NaN();  // over the allowable load of the joint; NaN: not known
   std::string not_assessed = {};                            // why; empty: assessed
 };
@@ -55,7 +57,11 @@ struct Margin {
   // Speeds [rad/s] at which the excitation coincides with the mode, the one next to the operating range first; two if
   // a converter's line also descends from higher frequency.
   std::optional<double> crossing = {}, further_crossing = {};
+  // Speed of the largest response to it, if that is assessed and visibly apart from the crossing [rad/s].
+  std::optional<double> largest = {};
+  double omega = 0;     // that the margin is of: at `largest`, else ω_n [rad/s]
   double margin = 0;    // signed; > 0: the mode lies above
+  double undamped = 0;  // the same by ω_n
   bool within = false;  // |margin| is smaller than required
   std::optional<CrossingResponse> response = {};
   std::string not_assessed = {};  // why the response is not assessed; empty: it is

@@ -27,12 +27,15 @@ std::vector<std::size_t> shown(const Margins& m) {
   return rows;
 }
 
-// "mode 1 (19.97 Hz) and 1×, which meet at 1198 rpm, −17.6 %"
+// "mode 1 (19.97 Hz) and 1×, which meet at 1198 rpm, −17.6 %"; "…, with the largest response at 1150 rpm, −20.9 %
+// (undamped −17.6 %)"
 std::string pair_text(const Margins& m, const Margin& row, const SpeedUnit& unit) {
   const MarginMode& mode = m.modes[row.mode];
   std::string text = fmt::format("mode {} ({:.4g} Hz) and {}", mode.number, mode.omega / turn, m.lines[row.line].label);
   if (row.crossing) text += fmt::format(", which meet at {}", unit.text(*row.crossing, 4));
-  return text + (row.margin == 0 ? ", within the range" : fmt::format(", {} %", percent(row.margin)));
+  if (row.largest) text += fmt::format(", with the largest response at {}", unit.text(*row.largest, 4));
+  text += row.margin == 0 ? ", within the range" : fmt::format(", {} %", percent(row.margin));
+  return text + (row.largest ? fmt::format(" (undamped {} %)", percent(row.undamped)) : "");
 }
 
 // NaN if not computed.
@@ -96,7 +99,17 @@ Rows margin_table(const Margins& m, const SpeedUnit& unit) {
       .only_for_programs("crossing", &Margin::crossing)
       .also_in_file("rad/s")
       .only_for_programs("further_crossing", &Margin::further_crossing)
+      .also_in_file("rad/s");
+  if (std::any_of(m.rows.begin(), m.rows.end(), [](const Margin& row) { return row.largest.has_value(); }))
+    table
+        .only_for_people(
+            fmt::format("largest response at [{}]", unit.name),
+            [&](const Margin& row) { return read_as(row.largest, {.factor = unit.of(1), .otherwise = ""}); })
+        .only_for_people("undamped margin [%]", [](const Margin& row) { return percent(row.undamped); });
+  table.only_for_programs("largest_response", &Margin::largest)
       .also_in_file("rad/s")
+      .only_for_programs("undamped_margin", &Margin::undamped)
+      .also_in_file()
       .column("margin", "margin [%]", &Margin::margin, percent)
       .also_in_file()
       .column("within", fmt::format("± {:.3g} %", 100 * m.speeds.margin), &Margin::within,

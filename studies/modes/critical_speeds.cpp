@@ -124,11 +124,13 @@ void find_critical_speeds(ModesStudy& found) {
             [](const CriticalSpeed& a, const CriticalSpeed& b) { return a.speed < b.speed; });
 }
 
-void measure_critical_speeds(const std::function<SpeedResponse(double speed)>& at, ModesStudy& found) {
+void measure_critical_speeds(const std::function<SpeedResponse(double speed)>& at,
+                             const std::function<void(double part)>& progress, ModesStudy& found) {
   if (found.sweep.empty()) return;
   std::vector<SpeedResponse> peaks;
   for (CriticalSpeed& c : found.critical) {
     Deadline::check();
+    progress(static_cast<double>(&c - found.critical.data()) / static_cast<double>(found.critical.size()));
     const Mode& mode = found.modes[static_cast<std::size_t>(c.mode) - 1];
     const std::size_t nearest = nearest_of(found.sweep, c.speed);
     c.joint = joint_of(mode);
@@ -257,6 +259,7 @@ std::vector<CrossingResponse> responses_of(const ModesStudy& found) {
                    .harmonic = c.harmonic,
                    .joint = found.joint_names[c.joint],
                    .amplitude = c.amplitude,
+                   .peak = c.peak,
                    .share = c.share,
                    .not_assessed = why});
   };

@@ -26,7 +26,8 @@ void find_zones(ModesStudy& found);
 // beside every one of them unless it was thinned. The peaks are refined by `at`, the response at any speed, to some
 // 1e-3 of the resonance's width, and become points of the sweep. No peak is given for a strongly damped mode (ζ ≥
 // 0.5), nor beyond speeds that are not held, nor farther from r Ω = |λ| than damping can shift it.
-void measure_critical_speeds(const std::function<SpeedResponse(double speed)>& at, ModesStudy& found);
+void measure_critical_speeds(const std::function<SpeedResponse(double speed)>& at,
+                             const std::function<void(double part)>& progress, ModesStudy& found);
 
 // Whether small deviations from a held mean speed grow (Re λ > 0): beyond its breakdown torque an induction motor drives
 // less the slower it turns. Only for drives within reach of a dense solver (160 coordinates); false for larger ones.

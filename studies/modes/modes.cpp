@@ -271,20 +271,21 @@ class Study {
   double signed_speed(double speed) const { return std::copysign(speed, found_.drive.at.speed); }
 
   void name_parts(ModesStudy& of) const {
+    const std::vector<std::string> names = names_of_nodes(*model_);
     for (const int s : of.drive.shaft) {
       const Shaft& shaft = model_->shafts[at(s)];
-      std::string name = model_->node_label(shaft.reference);
+      std::string name = names[at(shaft.reference)];
       double largest = -1;
       for (const int n : shaft.nodes) {  // the heaviest part gives the name
         double inertia = model_->network.nodes[at(n)].inertia;
         for (const Network::ShaftElement& e : model_->network.elements)
           if (e.node == n) inertia += e.element->mean_inertia;
         inertia *= std::pow(model_->gain_of_node[at(n)], 2);
-        if (inertia > largest) largest = inertia, name = model_->node_label(n);
+        if (inertia > largest) largest = inertia, name = names[at(n)];
       }
       of.shaft_names.push_back(name);
     }
-    of.joint_names = model_->joint_names();
+    of.joint_names = names_of_joints(*model_);
   }
 
   void choose_range() {
@@ -354,7 +355,8 @@ class Study {
       found_.sweep.push_back(respond_at(speeds[i]));
     }
     if (!options_.response_alone) sweep_as_if_rigid();
-    measure_critical_speeds([this](double speed) { return respond_at(speed); }, found_);
+    measure_critical_speeds([this](double speed) { return respond_at(speed); },
+                            [this](double part) { options_.watch.at("largest responses", 0.8 + 0.05 * part); }, found_);
     omit_speeds_not_held(found_);
   }
 

@@ -324,7 +324,7 @@ Formulas rayleigh(const ModesStudy& m) {
   const double kinetic = m.drive.inertia.dot(first.shape.cwiseAbs2());
   return Formulas()
       .add("First mode by its energies (Rayleigh, theory 12.4)", "ω² = Σ k θ² / Σ J φ²",
-           "ω² = {:.7g} / {:.7g} → ω = {:.7g} 1/s, f = {:.7g} Hz", potential, kinetic, first.omega, hertz(first.omega))
+           "ω² = {:.6g} / {:.6g} → ω = {:.6g} 1/s, f = {:.6g} Hz", potential, kinetic, first.omega, hertz(first.omega))
       .note(point_text(m) + ".");
 }
 
@@ -333,7 +333,7 @@ Formulas about_rest(const ModesStudy& m) {
   const double stiffness = m.drive.stiffness.coeff(0, 0) + m.drive.other_stiffness.coeff(0, 0);
   return Formulas()
       .add("Vibration about its position of rest (theory 9)", "ω² = K / I_r, K = −∂M/∂φ",
-           "ω² = {:.7g} / {:.7g} → ω = {:.7g} 1/s", stiffness, m.drive.inertia[0],
+           "ω² = {:.6g} / {:.6g} → ω = {:.6g} 1/s", stiffness, m.drive.inertia[0],
            std::sqrt(stiffness / m.drive.inertia[0]))
       .note(point_text(m) + ".");
 }

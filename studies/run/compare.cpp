@@ -79,6 +79,29 @@ void note_sudden_loads(Comparison& c) {
                     "factor of two without damping; the motion itself converges to the rigid one");
 }
 
+// Amplifications without those of the vibration in which the run begins, which are noted.
+std::vector<ComparisonRow> peaks_of_motion(Comparison& c) {
+  std::vector<ComparisonRow> rows;
+  std::string first;
+  std::size_t others = 0;
+  for (const ComparisonRow& row : c.amplification) {
+    const Figure* peak = c.b.find(quantities::peak_torque, row.of);
+    const std::string words = peak ? words_of_start(c.b, *peak) : "";
+    if (words.empty())
+      rows.push_back(row);
+    else if (first.empty())
+      first = fmt::format("{} reaches {}{}", row.of, short_text(peak->value, peak->unit), words);
+    else
+      ++others;
+  }
+  if (!first.empty())
+    c.notes.push_back(
+        fmt::format("the run begins in no steady motion: the torque in {}{}. Such a peak belongs to no motion of the "
+                    "machine and is not compared",
+                    first, others > 0 ? fmt::format("; likewise in {} more", others) : ""));
+  return rows;
+}
+
 // "; both with joint friction": effects common to both beyond the bare machine.
 std::string shared(const Comparison& c) {
   const std::string none = "none";
@@ -99,11 +122,11 @@ void conclude(Comparison& c) {
     c.conclusion += ".";
     return;
   }
-  const auto worst = std::max_element(c.amplification.begin(), c.amplification.end(),
-                                      [](const ComparisonRow& x, const ComparisonRow& y) {
-                                        return std::abs(std::log(x.b->value)) < std::abs(std::log(y.b->value));
-                                      });
-  if (worst != c.amplification.end() && worst->b->value > 0) {
+  const std::vector<ComparisonRow> peaks = peaks_of_motion(c);
+  const auto worst = std::max_element(peaks.begin(), peaks.end(), [](const ComparisonRow& x, const ComparisonRow& y) {
+    return std::abs(std::log(x.b->value)) < std::abs(std::log(y.b->value));
+  });
+  if (worst != peaks.end() && worst->b->value > 0) {
     const std::string& joint = worst->of;
     const Figure* peak = c.b.find(quantities::peak_torque, joint);
     const double ratio = worst->b->value;

@@ -135,7 +135,7 @@ void show_amplification(Findings& f, Chapter in, const Comparison& c) {
   for (const ComparisonRow& row : c.amplification) {
     const std::string& joint = row.of;
     const Figure *a = c.a.find(quantities::peak_torque, joint), *b = c.b.find(quantities::peak_torque, joint);
-    if (!a || !b || !row.b) continue;
+    if (!a || !b || !row.b || largest_after_start(c.b, *b)) continue;
     f.show(in, Formulas()
                    .add(fmt::format("Torque amplification in {} (theory 14.2)", joint),
                         fmt::format("K = |τ_{}| / |τ_{}|", c.b.label, c.a.label), "K = |{}| / |{}| = {}",
@@ -206,7 +206,8 @@ std::vector<KeyFigure> key_figures_of(const Result& r) {
   std::vector<KeyFigure> figures;
   for (const std::size_t i : chosen_figures(r, most)) {
     const Figure& f = r.figures[i];
-    figures.push_back(key_of(f, f.what == quantities::peak_torque ? at_time(f) : "", speed_unit_of(r)));
+    figures.push_back(
+        key_of(f, f.what == quantities::peak_torque ? at_time(f) + words_of_start(r, f) : "", speed_unit_of(r)));
   }
   figures.push_back(key_figure("coordinates", {static_cast<double>(r.coordinates)}, "coordinates",
                                duration_text(r.statistics.cpu_seconds) + " of processor time a run"));
@@ -231,7 +232,9 @@ std::vector<KeyFigure> key_figures_of(const Comparison& c) {
     figures.push_back(key_of(*figure, note, speed));
   };
   for (const std::string& joint : drawable({&c.a, &c.b}) ? couplings(c.b) : std::vector<std::string>{})
-    if (figures.size() < 3) add(c.b.find("peak_torque." + joint));
+    if (const Figure* peak = c.b.find("peak_torque." + joint);
+        figures.size() < 3 && peak && !largest_after_start(c.b, *peak))
+      add(peak);
   add(first_of(c.b, quantities::delta));
   add(first_of(c.b, quantities::cycle_fluctuation));
   add(first_of(c.b, quantities::mid_speed));

@@ -39,7 +39,13 @@ std::string sure(const Figure& figure);         // value, error, unit in SI
 SpeedUnit speed_unit_of(const Result& result);  // of its scene
 // Not known where its error exceeds it: of several equal extremes, each run may find another one.
 bool has_known_time(const Figure& figure);
-std::string at_time(const Figure& figure);         // "at 1.23 s"; empty: at none
+std::string at_time(const Figure& figure);  // "at 1.23 s"; empty: at none
+// For a peak of the vibration in which a run begins: the machine turns at once, in no steady motion, and the peak within
+// its first cycle is not reached again. The largest magnitude in the second half of the run, from the rows; empty: the
+// peak is another.
+std::optional<double> largest_after_start(const Result& result, const Figure& peak);
+// ", in the vibration with which the run begins; in its second half at most 490 N·m"; empty: it is another peak.
+std::string words_of_start(const Result& result, const Figure& peak);
 const Figure* largest_peak(const Result& result);  // of torque in any coupling
 const Figure* first_of(const Result& result, const QuantityKind& what);
 

@@ -64,12 +64,39 @@ SpeedUnit speed_unit_of(const Result& r) { return r.model ? r.model->scene.speed
 bool has_known_time(const Figure& f) { return f.at && f.at_error.value_or(0) <= std::abs(*f.at); }
 std::string at_time(const Figure& f) { return has_known_time(f) ? "at " + with_error({*f.at, f.at_error}, "s") : ""; }
 
+std::optional<double> largest_after_start(const Result& r, const Figure& peak) {
+  constexpr double nearly = 0.98;
+  if (!r.model || !r.trajectory || r.begins_at > 0 || !r.periods.steady || r.periods.run_down_begin ||
+      r.cycles.empty() || r.model->scene.run.start.speed == 0 || !r.model->commands.empty())
+    return {};
+  const double first = r.cycles.front().end, half = 0.5 * (first + r.cycles.back().end);
+  const std::vector<Channel>& channels = r.trajectory->channels();
+  const auto torque = std::find_if(channels.begin(), channels.end(),
+                                   [&](const Channel& channel) { return "peak_" + channel.name.text == peak.name; });
+  if (!peak.at || *peak.at >= first || torque == channels.end()) return {};
+  double after = 0, later = 0;
+  for (std::size_t row = 0; row < r.trajectory->time().size(); ++row) {
+    const double t = r.trajectory->time()[row],
+                 size = std::abs(r.trajectory->value(row, static_cast<std::size_t>(torque - channels.begin())));
+    if (t >= first) after = std::max(after, size);
+    if (t >= half) later = std::max(later, size);
+  }
+  return after < nearly * std::abs(peak.value) ? std::optional(later) : std::nullopt;
+}
+
 const Figure* largest_peak(const Result& r) {
   const Figure* peak = nullptr;
   for (const Figure& f : r.figures)
     if (f.what == quantities::peak_torque && is_reported(f, r) && (!peak || std::abs(f.value) > std::abs(peak->value)))
       peak = &f;
   return peak;
+}
+
+std::string words_of_start(const Result& r, const Figure& peak) {
+  const std::optional<double> later = largest_after_start(r, peak);
+  return later ? fmt::format(", in the vibration with which the run begins; in its second half at most {}",
+                             short_text(*later, peak.unit))
+               : "";
 }
 
 const Figure* first_of(const Result& r, const QuantityKind& what) {
@@ -108,8 +135,8 @@ std::string figures_in_words(const Result& r) {
   const auto reported = [&](const Figure& f) { return short_text(f.value, f.unit, speed); };
   std::string text;
   if (const Figure* peak = largest_peak(r); peak && peak->value != 0)
-    text = fmt::format("the torque in \"{}\" reaches {}{}", peak->of, reported(*peak),
-                       peak->at ? " at " + short_text(*peak->at, "s") : "");
+    text = fmt::format("the torque in \"{}\" reaches {}{}{}", peak->of, reported(*peak),
+                       peak->at ? " at " + short_text(*peak->at, "s") : "", words_of_start(r, *peak));
   const auto more = [&](const std::string& words) { text += (text.empty() ? "" : "; ") + words; };
   constexpr double stands_within_the_cycle = 2;
   // Over a cycle the force is a datum; a mechanism without one turns kinetic energy into it.

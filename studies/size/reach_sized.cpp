@@ -186,8 +186,8 @@ class Reach {
     if (!found.orbit) {
       s_.meeting_words = fmt::format(
           "no flywheel was found with which the {} machine has δ = {:g}: the least of {} steady motions is {:.4g}, "
-          "with {:.6g} kg·m²",
-          which, s_.delta, found.orbits, found.least, found.least_at);
+          "with {:.6g} kg·m²{}",
+          which, s_.delta, found.orbits, found.least, found.least_at, found.slips.empty() ? "" : "; " + found.slips);
       if (!found.unknown.empty())
         s_.meeting_words += "; the search failed, which does not say that there is none: " + found.unknown;
       return;

@@ -35,6 +35,11 @@ bool misses(const Sizing& s) {
   return s.needed && real && real->crank.value - real->crank.error.value_or(0) > visible * s.delta;
 }
 
+// Where the flywheel is.
+std::string on_what(const Sizing& s) {
+  return s.flywheel_added ? fmt::format("the shaft of \"{}\"", s.link) : fmt::format("\"{}\"", s.flywheel);
+}
+
 std::string conclusion_of(const Sizing& s) {
   const SizeMethod& exact = exact_method(s);
   if (s.needed && exact.flywheel.value <= 0)
@@ -47,14 +52,14 @@ std::string conclusion_of(const Sizing& s) {
         "{} flywheel is needed for δ = {:g}: without any, δ is smaller already; {}",
         s.estimate ? "By an estimate, the rigid machine without its losses, no" : "No", s.delta,
         exact.drive_inertia > 0
-            ? fmt::format("the drive could be lighter by {:.4g} kg·m² on \"{}\"", -exact.flywheel.value, s.flywheel)
+            ? fmt::format("the drive could be lighter by {:.4g} kg·m² on {}", -exact.flywheel.value, on_what(s))
             : std::string("its torques would not make the speed fluctuate as much with any inertia"));
   std::string text = s.estimate ? fmt::format(
                                       "An estimate, by the rigid machine without its losses: a flywheel of about "
-                                      "{:.3g} kg·m² on \"{}\" for δ = {:g} {}",
-                                      exact.flywheel.value, s.flywheel, s.delta, basis_of(s))
-                                : fmt::format("A flywheel of {:.4g} kg·m² on \"{}\" keeps δ at {:g} {}",
-                                              exact.flywheel.value, s.flywheel, s.delta, basis_of(s));
+                                      "{:.3g} kg·m² on {} for δ = {:g} {}",
+                                      exact.flywheel.value, on_what(s), s.delta, basis_of(s))
+                                : fmt::format("A flywheel of {:.4g} kg·m² on {} keeps δ at {:g} {}",
+                                              exact.flywheel.value, on_what(s), s.delta, basis_of(s));
   text += fmt::format(", at a mid speed of {} of \"{}\" ({})", s.speed_unit.text(s.mid_speed, 4), s.link,
                       s.mid_speed_source);
   if (s.stalls) text += "; with the torques as they are over the speed the machine stalls with it";
@@ -367,10 +372,14 @@ void add_answers(Findings& f, const Sizing& s) {
         Predicate::demand_missed,
         fmt::format(
             "{}the work equation gives {:.6g} kg·m², too small for δ = {:g}: simulated {}, δ is {:.4g} at the crank, "
-            "{:.3g} times that{}",
-            s.meeting ? fmt::format("\"{}\" needs {:.6g} kg·m²; ", s.flywheel, s.meeting->flywheel.value) : "",
+            "{:.3g} times that{}{}",
+            !s.meeting ? ""
+                       : fmt::format(fmt::runtime(s.flywheel_added ? "{1:.6g} kg·m² are needed on {0}; "
+                                                                   : "{0} needs {1:.6g} kg·m²; "),
+                                     on_what(s), s.meeting->flywheel.value),
             exact_method(s).flywheel.value, s.delta, real->model == SizedModel::elastic ? "elastic" : "rigid",
-            real->crank.value, real->crank.value / s.delta, at_motor(s, *real)),
+            real->crank.value, real->crank.value / s.delta, at_motor(s, *real),
+            s.meeting && !real->slips.empty() ? "; " + real->slips : ""),
         s.link, {.value = real->crank.value, .limit = s.delta, .error = real->crank.error}));
 }
 

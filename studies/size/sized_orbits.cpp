@@ -9,7 +9,9 @@
 
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
+#include "engine/orbit/follow_period.h"
 #include "engine/values/dense_tables.h"
+#include "studies/answers/slip_recorder.h"
 #include "studies/cycle/classical.h"
 #include "studies/scenes/kinds.h"
 #include "studies/steady/cycle_search.h"
@@ -32,6 +34,21 @@ const Kind& flywheel_kind() {
 double delta_of(const Piecewise& speed) {
   const double most = speed.maximum().value, least = speed.minimum().value;
   return (most - least) / std::abs(0.5 * (most + least));
+}
+
+// Clutches and torque limiters that slip within the period although they are closed.
+std::string what_slips(const Orbit& orbit) {
+  Equations equations(orbit.map->shared_model(), true);
+  const Model& m = equations.model();
+  SlipRecorder slips(m);
+  follow_period(*orbit.map, orbit.point, equations, {.tolerance = orbit.map->options().tolerance}, {&slips});
+  std::string text;
+  for (const SlipRecorder::Joint& joint : slips.joints())
+    if (joint.kind != "one-way clutch" && joint.let_go.times + (joint.open.times == 0 ? joint.engaging.times : 0) > 0)
+      text +=
+          fmt::format("{}\"{}\" slips, as the torque reaches the {:.4g} N·m that it holds", text.empty() ? "" : "; ",
+                      joint.component, m.network.joints[kurbel::at(m.elastic[joint.elastic].joint)].element->capacity);
+  return text;
 }
 
 void fill(SizedOrbit& r, const OrbitCycle& c, double motor_ratio) {
@@ -120,6 +137,7 @@ SizedOrbit SizedOrbits::at(double flywheel, const Effects& effects, std::optiona
     fill(r, cycle, model->node_ratio[kurbel::at(motor)]);
     if (!orbit.point.multipliers.empty()) r.multiplier = orbit.point.largest();
     r.notes = static_curve_notes(*orbit.map, orbit.point);
+    if (r.slips = what_slips(orbit); !r.slips.empty()) r.notes.push_back(r.slips);
     for (std::string& sentence : substitutes(*model)) r.notes.push_back(std::move(sentence));
     for (std::string& sentence : outside_data(*orbit.map, orbit.point)) r.notes.push_back(std::move(sentence));
     if (!with_error) return r;
@@ -158,7 +176,7 @@ SizedOrbits::Meeting SizedOrbits::meeting(double delta, const SizedOrbit& first,
     if (!last.stops) m.unknown = unknown(last);
     return m;
   }
-  m.least = last.crank.value, m.least_at = last.flywheel;
+  m.least = last.crank.value, m.least_at = last.flywheel, m.slips = last.slips;
   // u = ln I, v = ln δ/δ_demanded, which decreases as −u if the flywheel is the dominant inertia.
   double u = log_inertia(), v = std::log(last.crank.value / delta), slope = -1, damping = 1;
   (v > 0 ? too_light : heavy_enough) = u;
@@ -187,7 +205,7 @@ SizedOrbits::Meeting SizedOrbits::meeting(double delta, const SizedOrbit& first,
     in_vain = heavier_in_vain ? in_vain + 1 : 0;
     if (std::abs(next - u) > least_apart) slope = (now - v) / (next - u);
     u = next, v = now, damping = 1, last = std::move(r);
-    if (last.crank.value < m.least) m.least = last.crank.value, m.least_at = last.flywheel;
+    if (last.crank.value < m.least) m.least = last.crank.value, m.least_at = last.flywheel, m.slips = last.slips;
     m.none_needed = flywheel == 0 && v < 0;
     if (std::abs(last.crank.value / delta - 1) <= met || m.none_needed) break;
     (v > 0 ? too_light : heavy_enough) = u;

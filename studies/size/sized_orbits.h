@@ -28,6 +28,7 @@ struct SizedCycle {
   Estimate crank, motor;                        // δ of the link and of the motor's shaft, each by its own mid speed
   double mid_speed = 0;                         // of the link [rad/s]
   int cycles = 0;                               // cost of the search
+  std::string slips = {};                       // what slips in it although it is closed, in words; empty: nothing
   std::vector<double> phi, speed, motor_speed;  // [rad], [rad/s]; the motor's reduced to the link
 };
 
@@ -61,6 +62,7 @@ class SizedOrbits {
     bool none_needed = false;         // `orbit` is without a flywheel, with a smaller δ
     std::optional<double> error;      // of its flywheel [kg·m²]; empty: none is needed
     double least = 0, least_at = 0;   // the smallest δ found, and its flywheel [kg·m²]
+    std::string slips;                // what slips there
     int orbits = 0;                   // computed
     std::string unknown;              // why the motion is unknown for one of the inertias tried; else empty
   };

@@ -154,8 +154,10 @@ class TrainReport {
     const std::size_t most = f.figures.empty() ? 3 : 2;
     std::size_t number = 0;
     for (const KeyFigure& figure : part.output.figures)
-      if (figure.means == "largest_amplitude" || (number < most && figure.means != "processor_time"))
-        f.figures.push_back(figure), ++number;
+      if (figure.means == "largest_amplitude" || (number < most && figure.means != "processor_time")) {
+        KeyFigure& tile = f.figures.emplace_back(figure);
+        tile.digits = headline_digits, tile.error.reset(), ++number;
+      }
   }
 
   const Part* part_of(const std::string& question) const {

@@ -94,6 +94,11 @@ void add_notes(const Part& part, std::vector<std::string>& lines) {
         }
 }
 
+// What an analyst may set to get more follows the statement: "…; --orders gives more".
+std::string without_hint(const std::string& line) {
+  return line.substr(0, std::min(line.find("; --"), line.find("; samples = ")));
+}
+
 // By another question, in the report.
 bool is_said(const Findings& report, const std::string& line) {
   return std::any_of(report.statements.begin(), report.statements.end(), [&](const Statement& statement) {
@@ -149,6 +154,7 @@ void take(const std::vector<Part>& parts, const Part& part, const std::vector<bo
     }
     if (Sentences* words = std::get_if<Sentences>(&taken.what)) {
       words->key.clear(), words->terminal = false;
+      for (std::string& line : words->lines) line = without_hint(line);
       std::erase_if(words->lines, [&](const std::string& line) { return is_said(report, line); });
     }
     report.statements.push_back(std::move(taken));

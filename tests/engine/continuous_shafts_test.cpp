@@ -360,5 +360,35 @@ TEST(ContinuousShaft, costs_nothing_while_it_is_rigid) {
   EXPECT_NEAR(model->shafts[0].inertia, 1100 + (Steel{40, 0.4}.inertia()), 1e-9);
 }
 
+// The parts of a divided shaft and the places between them have names of their own, each once.
+TEST(ContinuousShaft, SegmentsAndStationsAreNamedApart) {
+  const auto study = [](const std::string& shaft) {
+    const Scene scene = test::scene_from(R"(
+line = ["a", "shaft", "b"]
+a = { kind = "inertia", inertia = "2 kg*m2" }
+shaft = { kind = "shaft", )" + shaft + R"( }
+b = { kind = "inertia", inertia = "3 kg*m2" }
+effects = { elasticity = true }
+)");
+    return find_modes(scene, scene.effects, {.speed = 10.0});
+  };
+  const ModesStudy even = study(R"(length = "2 m", diameter = "60 mm", segments = 4)");
+  EXPECT_EQ(even.joint_names,
+            (std::vector<std::string>{"shaft, segment 1", "shaft, segment 2", "shaft, segment 3", "shaft, segment 4"}));
+  for (const char* station : {"shaft, station at 0.5 m", "shaft, station at 1 m", "shaft, station at 1.5 m"})
+    EXPECT_EQ(std::count(even.shaft_names.begin(), even.shaft_names.end(), station), 1) << station;
+  const ModesStudy stiff = study(R"(stiffness = "60 kN*m/rad", inertia = "0.1 kg*m2", segments = 2)");
+  EXPECT_EQ(std::count(stiff.shaft_names.begin(), stiff.shaft_names.end(), "shaft, station at 50 % of its length"), 1);
+  const ModesStudy whole = study(R"(length = "2 m", diameter = "60 mm")");
+  const std::size_t parts = whole.joint_names.size();
+  EXPECT_EQ(std::count(whole.joint_names.begin(), whole.joint_names.end(), "shaft"), 1);  // the middle
+  for (int i = 1; i < static_cast<int>(parts); ++i) {
+    const double place = lobatto_element(static_cast<int>(parts)).place[static_cast<std::size_t>(i)];
+    const std::string station = fmt::format("shaft, station at {:.4g} m", 2 * place);
+    EXPECT_EQ(std::count(whole.shaft_names.begin(), whole.shaft_names.end(), station), 1) << station;
+  }
+  for (const LimitedJoint& joint : whole.limited) EXPECT_EQ(joint.beside_middle, joint.name != "shaft");
+}
+
 }  // namespace
 }  // namespace kurbel::continuous_shafts_test

@@ -357,5 +357,42 @@ TEST(KeyFigures, HoldWhatIsJudgedAndWhatTheMotorGives) {
   EXPECT_TRUE(has(chosen("pendulum_balance"), "final_angle.pendulum"));
 }
 
+// T = 100 + M cos 3φ on J_A, at 100 rad/s, far above the resonance at 80: the start in equilibrium with the torque of that
+// moment, 100 + J_L/(J_A + J_L) M, begins with a vibration that the steady motion does not have.
+TEST(RunConclusion, NamesTheVibrationInWhichARunBegins) {
+  const auto result = [](const std::string& torque, const std::string& start) {
+    return test::run(fmt::format(R"~(
+line = ["source", "k1", "disc"]
+source = {{ kind = "torque source", inertia = "0.5 kg*m2", {} }}
+k1 = {{ kind = "coupling", stiffness = "2400 N*m/rad", damping = "6 N*m*s/rad" }}
+disc = {{ kind = "load", inertia = "1.5 kg*m2", damping = "1 N*m*s/rad" }}
+effects = {{ elasticity = true }}
+run = {{ until = "6 s", start = {} }}
+)~",
+                                 torque, start));
+  };
+  const std::string pulse =
+      "table = { over = \"angle\", formula = \"100 [N*m] + 300 [N*m]*cos(3*phi)\", period = \"120 deg\" }";
+  const std::string turning = "{ speed = \"100 rad/s\", equilibrium = true }";
+  const Result rings = result(pulse, turning);
+  const Figure* peak = rings.find(quantities::peak_torque, "k1");
+  ASSERT_NE(peak, nullptr);
+  EXPECT_GE(peak->value, 100 + 0.75 * 300 - 1e-6);
+  const std::optional<double> later = largest_after_start(rings, *peak);
+  ASSERT_TRUE(later.has_value());
+  const double s = 300 / 80.0, z = 2 * 0.1 * s;
+  EXPECT_NEAR(*later, 100 + 0.75 * 300 * std::sqrt(1 + z * z) / std::hypot(1 - s * s, z), 2);
+  EXPECT_NE(figures_in_words(rings).find("in the vibration with which the run begins"), std::string::npos);
+  EXPECT_FALSE(largest_after_start(result("torque = \"100 N*m\"", turning), *peak));
+  EXPECT_FALSE(largest_after_start(result(pulse, "\"rest\""), *peak));
+  SimulateOptions once;
+  once.measure_error = false;
+  const Comparison both = compare(rings.model->scene, models_to_compare(rings.model->scene), once);
+  EXPECT_EQ(both.conclusion.find("peak torque"), std::string::npos) << both.conclusion;
+  EXPECT_TRUE(std::any_of(both.notes.begin(), both.notes.end(), [](const std::string& note) {
+    return note.starts_with("the run begins in no steady motion: the torque in k1 reaches ");
+  }));
+}
+
 }  // namespace
 }  // namespace kurbel::conclusions_test

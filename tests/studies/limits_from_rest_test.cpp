@@ -288,7 +288,7 @@ TEST(BarredRanges, JointBeyondItsLimitEverywhereIsBarredEverywhereAndReported) {
   DriveLimits limits;
   limits.maximum = 30;
   const std::vector<LimitedJoint> joints = {joint_of(limits)};
-  const auto ranges = barred_ranges(joints, resonance(-31, 1), 1);
+  const auto ranges = barred_ranges(joints, resonance(-29.9, 30), 1);  // 30/197 at the far end
   ASSERT_EQ(ranges.size(), 1u);
   EXPECT_TRUE(ranges[0].everywhere);
   EXPECT_EQ(ranges[0].from, 10);
@@ -347,7 +347,51 @@ TEST(BarredRanges, EveryLimitBars) {
   EXPECT_NEAR(hot[0].from, 75, 0.01);
   DriveLimits warm = maximum;
   warm.temperature_factor = 1.4;
-  EXPECT_EQ(bars(warm, 40, 1), "maximum_torque");
+  EXPECT_EQ(bars(warm, 30, 10), "maximum_torque");
+}
+
+// A mean beyond the limit by itself bars nothing, with or without vibration: it is not assessed.
+TEST(BarredRanges, MeanTorqueAloneBarsNothing) {
+  DriveLimits maximum, shear;
+  maximum.maximum = 50, maximum.vibratory = 30;
+  shear.shear_stress = 5e6, shear.polar_modulus = 1e-5;
+  for (const double vibratory : {0.0, 1e-9, 25.0})
+    for (const DriveLimits& limits : {maximum, shear}) {
+      const std::vector<LimitedJoint> joints = {joint_of(limits)};
+      EXPECT_TRUE(barred_ranges(joints, resonance(-60, vibratory), 1).empty());
+      const auto alone = beyond_by_mean(joints, resonance(-60, vibratory));
+      ASSERT_EQ(alone.size(), 1u);
+      EXPECT_TRUE(alone[0].everywhere);
+      EXPECT_TRUE(beyond_by_mean(joints, resonance(49, vibratory)).empty());
+    }
+  EXPECT_EQ(barred_ranges({joint_of(maximum)}, resonance(-60, 31), 1).size(), 1u);  // by the alternating torque
+}
+
+// A straight motor far from its balance: τ = d ω + J_L/(J_A + J_L) (M_s (1 − ω/ω₀) − d ω) accelerates the disc.
+TEST(BarredRanges, AcceleratingTorqueBarsNoSpeed) {
+  const std::string machine = R"(
+line = ["motor", "k1", "disc"]
+motor = { kind = "dc shunt motor", stall_torque = "400 N*m", no_load_speed = "100 rad/s", inertia = "0.5 kg*m2" }
+k1 = { kind = "coupling", stiffness = "2400 N*m/rad", damping = "6 N*m*s/rad", maximum_torque = "120 N*m" }
+disc = { kind = "load", inertia = "1.5 kg*m2", damping = "0.5 N*m*s/rad" }
+effects = { elasticity = true }
+)";
+  const auto torque = [](double w) { return 0.5 * w + 0.75 * (400 * (1 - w / 100) - 0.5 * w); };
+  const double end = (300 - 120) / (3 - 0.125);  // τ = 120 N·m
+  EXPECT_NEAR(torque(end), 120, 1e-9);
+  for (const char* pulse : {"", R"(
+ripple = { kind = "torque source", on = "disc", torque = "0 N*m", amplitude = "0.5 N*m", frequency = "3 Hz" })"}) {
+    std::string text = machine;
+    const ModesStudy m = modes_of(text.insert(text.find("effects"), std::string(pulse).substr(*pulse ? 1 : 0) + "\n"));
+    ASSERT_FALSE(m.sweep.empty());
+    EXPECT_TRUE(m.barred.empty());
+    EXPECT_NEAR(m.sweep.front().joints[0].mean, torque(m.sweep.front().speed), 1e-3);
+    const auto note = std::find_if(m.notes.begin(), m.notes.end(), [](const std::string& n) {
+      return n.starts_with("not assessed: whether \"k1\" may run at ");
+    });
+    ASSERT_NE(note, m.notes.end());
+    EXPECT_NE(note->find("… " + m.speed_unit.text(end, 4)), std::string::npos) << *note;
+  }
 }
 
 // Where halves may part and the torque changes sign they hammer, however small the swing: told apart from the size of it.

@@ -141,6 +141,40 @@ TEST(Margins, TakeWhatExcitesFromTheSceneAndItsResponse) {
   EXPECT_EQ(study.margins.modes.front().damping, "shaft 100 %");
 }
 
+// Two free masses under M sin 3φ: the torque of the spring is largest at s² = (√(1 + 8ζ²) − 1)/(4ζ²) of ω_n.
+TEST(Margins, AreOfTheSpeedOfTheLargestResponse) {
+  const double reduced = 2 * 0.5 / 2.5, omega = std::sqrt(60e3 / reduced), operating = 0.9 * omega / 3;
+  for (const double zeta : {0.005, 0.1, 0.25}) {
+    SCOPED_TRACE(zeta);
+    const Scene scene = test::scene_from(fmt::format(R"~(
+line = ["motor", "shaft", "pump"]
+motor = {{ kind = "inertia", inertia = "2 kg*m2" }}
+shaft = {{ kind = "shaft", stiffness = "60 kN*m/rad", damping_ratio = {} }}
+pump = {{ kind = "load", torque = "0 N*m", inertia = "0.5 kg*m2" }}
+pulse = {{ kind = "torque source", on = "pump", table = {{ over = "angle", formula = "5 [N*m]*sin(3*phi)", period = "120 deg" }} }}
+effects = {{ elasticity = true }}
+operation = {{ speeds = ["{:.15g} rad/s"] }}
+run = {{ start = {{ speed = "{:.15g} rad/s" }} }}
+)~",
+                                                     zeta, operating, operating));
+    const ModesStudy study = find_modes(scene, scene.effects, {});
+    const Margin* row = row_of(study.margins, 1, "3×");
+    ASSERT_TRUE(row && row->crossing);
+    EXPECT_EQ(row->not_assessed, "");
+    EXPECT_NEAR(*row->crossing, omega / 3, 1e-6 * omega);
+    EXPECT_NEAR(row->undamped, 1 / 0.9 - 1, 1e-6);
+    const double s = std::sqrt((std::sqrt(1 + 8 * zeta * zeta) - 1) / (4 * zeta * zeta));
+    EXPECT_EQ(row->largest.has_value(), s < 1 - 5e-4);
+    EXPECT_NEAR(row->margin, (row->largest ? s : 1) / 0.9 - 1, 1e-3 * zeta + 1e-6);
+    if (!row->largest) continue;
+    EXPECT_NEAR(*row->largest, s * omega / 3, 1e-3 * zeta * omega);
+    const std::string claim = margin_claim(study.margins, study.speed_unit).value().text;
+    for (const std::string& said : {"with the largest response at " + study.speed_unit.text(*row->largest, 4),
+                                    std::string("(undamped +11.11 %)")})
+      EXPECT_NE(claim.find(said), std::string::npos) << claim;
+  }
+}
+
 TEST(Margins, OfAConverterHaveBothCrossingsOfADifference) {
   const Scene scene = test::scene_from(
       geared("[operation]\nspeeds = [\"900 rpm\", \"1100 rpm\"]\nmains = \"50 Hz\"\nmotor = \"motor\"\npole_pairs = 2\n"

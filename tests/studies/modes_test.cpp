@@ -124,6 +124,19 @@ TEST(Orders, PeakOfTheSumIsThatOfADenseScanAndNeverAboveTheSumOfAmplitudes) {
   }
 }
 
+// Pulses of N orders, Re Σ e^{ir(s − s₀)}: the greatest value is N, at s₀, wherever that lies between samples.
+TEST(Orders, PeakOfAPulseOfManyOrdersIsTheirSum) {
+  for (const std::size_t orders : {7u, 63u, 720u})
+    for (int k = 0; k < 20; ++k) {
+      std::vector<Complex> x(orders + 1);
+      for (std::size_t r = 1; r <= orders; ++r) x[r] = std::polar(1.0, -0.31 * k * static_cast<double>(r));
+      EXPECT_NEAR(extremes_of_sum(x).greatest, static_cast<double>(orders),
+                  1e-12 * static_cast<double>(orders * orders));
+      for (Complex& c : x) c = -c;
+      EXPECT_NEAR(extremes_of_sum(x).least, -static_cast<double>(orders), 1e-12 * static_cast<double>(orders * orders));
+    }
+}
+
 // Rod ten million cranks long: I_r = I₀ + m r² sin²φ, so −½ I_r′ Ω² = −½ m r² Ω² sin 2φ: order 2 alone.
 const char* const crank_on_a_shaft = R"(
 line = ["motor", "shaft", "crank"]

@@ -317,5 +317,41 @@ TEST(Size, RefusesInWords) {
   EXPECT_NE(refusal(valid, named).find("allowed: \"wheel\""), std::string::npos) << refusal(valid, named);
 }
 
+// No part of the scene is named where the scene has none.
+TEST(Size, AFlywheelThatTheSceneDoesNotHaveHasNoName) {
+  std::string text = press(straight(9000, 10));
+  const std::string wheel = "\"wheel\", ";
+  text.erase(text.find(wheel), wheel.size());
+  text.erase(text.find("wheel    ="), text.find("press    =") - text.find("wheel    ="));
+  const Scene scene = test::scene_from(text);
+  for (const double delta : {0.02, 1.9}) {
+    const Sizing s = size_flywheel(scene, demand(delta));
+    ASSERT_TRUE(s.flywheel_added);
+    EXPECT_EQ(s.needed, delta == 0.02);
+    const std::string conclusion = findings_of(s).conclusion();
+    EXPECT_NE(conclusion.find("kg·m² on the shaft of \"press\""), std::string::npos) << conclusion;
+    EXPECT_EQ(conclusion.find("\"flywheel\""), std::string::npos) << conclusion;
+  }
+}
+
+// A clutch that holds less than the stroke's peak: it slips, so that the flywheel before it does not even out δ.
+TEST(Size, NamesTheClutchThatSlips) {
+  for (const auto& [torque, slips] : {std::pair(100, true), std::pair(20'000, false)}) {
+    const Scene scene = test::scene_from(fmt::format(R"(
+line = ["motor", "flywheel", "clutch", "press"]
+motor = {{ kind = "dc shunt motor", stall_torque = "900 N*m", no_load_speed = "12 rad/s", inertia = "2 kg*m2" }}
+flywheel = {{ kind = "flywheel", inertia = "60 kg*m2" }}
+clutch = {{ kind = "clutch", torque = "{} N*m" }}
+press = {{ kind = "slider-crank", radius = "60 mm", rod = "300 mm", crank_inertia = "8 kg*m2", slider_mass = "60 kg", load = {{ kind = "press", nominal_force = "20 kN", nominal_travel = "10 mm", rise = "0.5 mm", breakthrough = "3 mm", drop = "0.2 mm" }} }}
+run = {{ start = {{ speed = "10 rad/s" }}, until = "10 s" }}
+)",
+                                                     torque));
+    const Sizing s = size_flywheel(scene, demand(0.05, true));
+    const std::string said = fmt::format("\"clutch\" slips, as the torque reaches the {} N·m that it holds", torque);
+    EXPECT_EQ(findings_of(s).conclusion().find(said) != std::string::npos, slips) << findings_of(s).conclusion();
+    EXPECT_EQ(s.meeting_words.find(said) != std::string::npos, slips);
+  }
+}
+
 }  // namespace
 }  // namespace kurbel::size_test

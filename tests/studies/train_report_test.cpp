@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "studies/findings/figure_text.h"
 #include "studies/question/question.h"
 #include "studies/train_report/sections.h"
 #include "tests/support/scenes.h"
@@ -143,6 +144,34 @@ run = { until = "1 s" }
   EXPECT_TRUE(says(lines, "range of operating speeds"));
   EXPECT_TRUE(says(lines, "the scene names none ([[case]])"));
   EXPECT_THROW(asked.answer("report", {{"sections", "margin"}}), std::invalid_argument);
+}
+
+// Of a customer's report: no hint at an option, no more than four digits in its tiles.
+TEST(TrainReport, HasNoHintsForTheAnalyst) {
+  Asked asked;
+  asked.scene = test::scene_file("docs/tasks/ship_shaft_line.toml");
+  const Scene& scene = asked.scene;
+  const Inquiry inquiry{.scene = scene, .text = scene.text, .file = scene.file, .settings = {}, .author = ""};
+  const auto said = [&](const char* question, const GivenOptions& given) {
+    return page_of(question_named(question).answer(inquiry, given));
+  };
+  const auto hints = [](const Report& page) {
+    int count = 0;
+    for (const ReportSection& section : page.sections)
+      for (const Card& card : section.cards)
+        if (const Text* text = std::get_if<Text>(&card); text && !text->verbatim)
+          count += text->body.find("; --") != std::string::npos || text->body.find("samples = ") != std::string::npos;
+    return count;
+  };
+  const Report report = said("report", {{"cases", "none"}, {"sections", "modes,assumptions"}});
+  EXPECT_GT(hints(said("modes", {{"cases", "none"}, {"no_misfires", ""}, {"spot_checks", "0"}})), 0);
+  EXPECT_EQ(hints(report), 0);
+  ASSERT_GE(report.figures.size(), 4u);
+  for (const KeyFigure& figure : report.figures) {
+    EXPECT_TRUE(tile_text(figure, figure.digits).known.empty()) << figure.name;
+    EXPECT_FALSE(figure.error) << figure.name;
+    EXPECT_EQ(figure.name.find("peak torque"), std::string::npos) << figure.name;  // of the start's vibration
+  }
 }
 
 }  // namespace

@@ -54,6 +54,9 @@ TEST_P(Twins, MirroredMachineRunsMirrored) { mirrored(scene(), expect_same_runs)
 
 // --- modes -----------------------------------------------------------------------------------------------------------
 
+// The channel of a joint or, for a segment, of its shaft.
+std::string torque_of(const std::string& joint) { return "torque." + joint.substr(0, joint.find(", segment ")); }
+
 std::map<std::string, std::size_t> own_joints(const ModesStudy& m) {
   std::map<std::string, std::size_t> joints;
   for (std::size_t k = 0; k < m.joint_names.size(); ++k) joints[m.joint_names[k]] = k;
@@ -96,7 +99,7 @@ void expect_same_response(const ModesStudy& a, const ModesStudy& b, const TwinMa
   for (const JointResponse& r : b.here.joints) largest = std::max(largest, std::abs(r.mean) + r.rms);
   for (const auto& [name, joint] : in_a) {
     const JointResponse &x = a.here.joints[joint], &y = b.here.joints[in_b.at(name)];
-    const double torque = map.factor("torque." + name, "N*m"), size = std::abs(torque);
+    const double torque = map.factor(torque_of(name), "N*m"), size = std::abs(torque);
     expect_near(torque * x.mean, y.mean, "mean torque of " + name, largest);
     expect_near(size * x.peak, y.peak, "peak of " + name, largest);
     expect_near(torque * (torque > 0 ? x.upper : x.lower), y.upper, "greatest torque of " + name, largest);
@@ -113,7 +116,7 @@ void expect_same_response(const ModesStudy& a, const ModesStudy& b, const TwinMa
     EXPECT_EQ(x.order, y.order);
     const std::string& joint = a.joint_names[x.joint];
     EXPECT_EQ(joint, b.joint_names[y.joint]);
-    expect_near(std::abs(map.factor("torque." + joint, "N*m")) * x.amplitude, y.amplitude, "amplitude there", largest);
+    expect_near(std::abs(map.factor(torque_of(joint), "N*m")) * x.amplitude, y.amplitude, "amplitude there", largest);
   }
   ASSERT_EQ(a.zones.size(), b.zones.size());
   for (std::size_t k = 0; k < a.zones.size(); ++k) {
@@ -130,7 +133,7 @@ void expect_same_verdicts(const ModesStudy& a, const ModesStudy& b, const TwinMa
     EXPECT_EQ(x.component, y.component);
     EXPECT_EQ(x.requirement, y.requirement);
     EXPECT_EQ(x.holds(), y.holds()) << x.component << ": " << x.requirement;
-    const double factor = x.unit == "N*m" ? std::abs(map.factor("torque." + x.component, "N*m")) : 1;
+    const double factor = x.unit == "N*m" ? std::abs(map.factor(torque_of(x.component), "N*m")) : 1;
     expect_near(factor * x.value, y.value, x.component + ": " + x.requirement, 1e-3 * y.limit);
     expect_near(factor * x.limit, y.limit, x.component + ": limit of " + x.requirement);
   }
