@@ -42,7 +42,7 @@ struct FieldTable::Rows {
   }
 };
 
-FieldTable::FieldTable() : rows_(std::make_shared<Rows>()) {}
+FieldTable::FieldTable() : rows_(std::make_shared<Rows>()) { rows_->keys.reserve(16), rows_->entries.reserve(16); }
 FieldTable::FieldTable(const FieldTable&) = default;
 FieldTable::~FieldTable() = default;
 

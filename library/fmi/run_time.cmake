@@ -29,7 +29,10 @@ add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/kurbel_fmi_tables.h VERBATIM
 target_sources(kurbel_fmi PRIVATE ${PROJECT_BINARY_DIR}/kurbel_fmi_tables.h)
 target_include_directories(kurbel_fmi PRIVATE ${PROJECT_BINARY_DIR})
 target_link_libraries(kurbel_fmi PRIVATE Eigen3::Eigen nlohmann_json::nlohmann_json kurbel_warnings ${archives})
-target_link_libraries(kurbel_fmi PRIVATE ${KLU_ARCHIVES})
+foreach(part klu amd colamd btf suitesparseconfig)
+  find_library(STATIC_${part} lib${part}.a REQUIRED)
+  target_link_libraries(kurbel_fmi PRIVATE ${STATIC_${part}})
+endforeach()
 # What nothing of the interface leads to is left out of it. Where gold is installed (Debian's binutils have it), functions
 # of the same code are held once: 0.3 MB.
 find_program(GOLD ld.gold)
