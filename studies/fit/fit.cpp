@@ -284,27 +284,27 @@ class FitWork {
     constexpr std::size_t fewest = 128;
     constexpr int most = 7;
     if (curve.at.size() < fewest) return;
-    const double step = (curve.at.back() - curve.at.front()) / static_cast<double>(curve.at.size() - 1);
+    const auto count = static_cast<double>(curve.at.size());
+    const double step = (curve.at.back() - curve.at.front()) / (count - 1), resolution = 1 / (count * step);
     std::vector<double> measured, fitted, left;
     const Signal m(curve.at, curve.measured), s(curve.at, curve.shown);
     for (std::size_t i = 0; i < curve.at.size(); ++i) {
       const double at = curve.at.front() + static_cast<double>(i) * step;
       measured.push_back(m.at(at)), fitted.push_back(s.at(at)), left.push_back(m.at(at) - s.at(at));
     }
-    const auto rms = [](const AmplitudeSpectrum& spectrum, double from, double to) {
-      constexpr double hann = 1.5;  // lines that a sine's power is spread over
-      double power = 0;
-      for (std::size_t i = 1; i < spectrum.frequency.size(); ++i)
-        if (spectrum.frequency[i] > from && spectrum.frequency[i] <= to)
-          power += 0.5 * spectrum.amplitude[i] * spectrum.amplitude[i] / hann;
-      return std::sqrt(power);
-    };
-    const AmplitudeSpectrum a = spectrum_of(measured, step), b = spectrum_of(fitted, step), c = spectrum_of(left, step);
+    const std::vector<double> a = powers_of(measured), b = powers_of(fitted), c = powers_of(left);
     double to = 0.5 / step;
-    for (int k = 0; k < most && to > 4 * a.resolution; ++k, to /= 2) {
-      const double from = k + 1 < most && to > 8 * a.resolution ? to / 2 : 0;
-      study_.bands.push_back(
-          {curve.record, curve.channel, curve.unit, from, to, rms(a, from, to), rms(b, from, to), rms(c, from, to)});
+    for (int k = 0; k < most && to > 4 * resolution; ++k, to /= 2) {
+      const double from = k + 1 < most && to > 8 * resolution ? to / 2 : 0;
+      const auto rms = [&](const std::vector<double>& powers) {
+        double sum = 0;
+        for (std::size_t i = 1; i < powers.size(); ++i) {
+          const double frequency = 0.5 * resolution * static_cast<double>(i);
+          if (frequency > from && frequency <= to) sum += powers[i];
+        }
+        return std::sqrt(sum);
+      };
+      study_.bands.push_back({curve.record, curve.channel, curve.unit, from, to, rms(a), rms(b), rms(c)});
     }
   }
 

@@ -67,7 +67,7 @@ struct OrderFigure {
   std::optional<double> scatter = {};  // of the measured mean
 };
 
-// For a record over time: RMS within a frequency band (Hann window).
+// For a record over time: RMS within a frequency band, of the whole record about its mean, without a window (powers_of).
 struct BandResidual {
   std::string record, channel, unit;
   double from = 0, to = 0;  // [Hz]
