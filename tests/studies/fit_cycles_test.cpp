@@ -127,7 +127,7 @@ TEST_F(FitCycles, AWeightIsThatOfNeighbours) {
   EXPECT_NEAR(late, 10, 0.5);
 }
 
-// A speed in rpm read as one in Hz; a rotor said to have half the inertia, where the speed is known from a second channel.
+// A speed in rpm that is read as one in Hz.
 TEST_F(FitCycles, WhatTheMachineDoesNotShowStandsFirst) {
   std::string text = "t [s],n\n";
   for (int i = 0; i < 61; ++i) text += fmt::format("{},{}\n", 0.05 * i, coasted(0.05 * i) * 30 / std::numbers::pi);
