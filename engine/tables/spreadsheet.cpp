@@ -10,9 +10,11 @@
 #include <pugixml.hpp>
 #include <vector>
 
+#include "engine/scene/document.h"
 #include "engine/scene/keys.h"
 #include "engine/scene/messages.h"
 #include "engine/tables/mat_text.h"
+#include "engine/tables/table_text.h"
 
 namespace kurbel {
 namespace {
@@ -29,6 +31,14 @@ class Workbook {
     if (source && !archive_) zip_source_free(source);
     zip_error_fini(&error);
     if (!archive_) refuse("is a damaged archive, no .xlsx file; save it anew");
+  }
+
+  std::vector<std::string> names() const {
+    const pugi::xml_document book = xml("xl/workbook.xml");
+    std::vector<std::string> names;
+    for (const pugi::xml_node sheet : book.document_element().child("sheets").children("sheet"))
+      names.emplace_back(sheet.attribute("name").value());
+    return names;
   }
 
   std::string text(const std::string& wanted) {
@@ -155,6 +165,12 @@ std::string sheet_as_text(const std::string& bytes, const std::string& sheet, co
                           std::size_t limit) {
   if (!is_archive(bytes)) return mat_as_text(bytes, sheet, path, limit);
   return Workbook(bytes, path, limit).text(sheet);
+}
+
+std::vector<std::string> sheet_names(const std::string& path) {
+  if (!path.ends_with(".xlsx") && !path.ends_with(".xlsm")) return {};
+  const std::string bytes = read_text_file(path, max_table_bytes);
+  return is_archive(bytes) ? Workbook(bytes, path, max_table_bytes).names() : std::vector<std::string>{};
 }
 
 }  // namespace kurbel

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace kurbel {
 
@@ -14,6 +15,9 @@ inline bool is_archive(std::string_view bytes) { return bytes.starts_with("PK\x0
 // SceneError for `path`.
 std::string sheet_as_text(const std::string& bytes, const std::string& sheet, const std::string& path,
                           std::size_t limit);
+
+// Of a workbook (.xlsx, .xlsm); none: another file.
+std::vector<std::string> sheet_names(const std::string& path);
 
 // "B7"
 std::string cell_name(int row, int column);

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t lines_looked_at = 1000;  // of which the form is found
 constexpr int most_bad_lines = 20;
+constexpr std::string_view no_number[] = {"nan", "n/a", "na", "#n/a", "null", "none"};
 
 // A number, or one gone wrong: "0,5", "1e999", "nan", "2-3"; not "time [s]" or "".
 bool is_number_like(std::string_view cell) {
@@ -26,6 +27,13 @@ bool is_number_like(std::string_view cell) {
   if (status != std::errc::invalid_argument && end == without_sign.data() + without_sign.size()) return true;
   return cell.find_first_of("0123456789") != std::string_view::npos &&
          cell.find_first_not_of("0123456789+-.,eE ") == std::string_view::npos;
+}
+
+// "", "NaN", "---", "n/a": no value was recorded.
+bool is_missing(std::string_view cell) {
+  if (cell.find_first_not_of("-*") == std::string_view::npos) return true;
+  return std::any_of(std::begin(no_number), std::end(no_number),
+                     [&](std::string_view word) { return equal_but_for_case(cell, word); });
 }
 
 bool is_word(std::string_view cell) { return !cell.empty() && !is_number_like(cell); }
@@ -359,7 +367,11 @@ std::string TableFile::place_in_words(const Line& line, int column) const {
   return text_.is_sheet ? fmt::format("cell {}: ", cell_name(line.number, column)) : "";
 }
 
-TableNumbers TableFile::numbers(const std::vector<int>& columns, Messages& messages) const {
+std::string TableFile::separated() const {
+  return text_.is_sheet ? "" : "; cells are separated by " + in_words(separator_);
+}
+
+TableNumbers TableFile::numbers(const std::vector<int>& columns, Messages& messages, std::size_t* incomplete) const {
   TableNumbers numbers{std::vector<std::vector<double>>(columns.size()), {}};
   std::vector<double> row(columns.size());
   Cells cells;
@@ -377,11 +389,14 @@ TableNumbers TableFile::numbers(const std::vector<int>& columns, Messages& messa
       return k < cells.size() ? cells[k] : std::string_view();
     };
     if (std::all_of(columns.begin(), columns.end(), [&](int c) { return cell_at(c).empty(); }) && i > data_) continue;
+    if (incomplete && std::any_of(columns.begin(), columns.end(), [&](int c) { return is_missing(cell_at(c)); })) {
+      ++*incomplete;
+      continue;
+    }
     if (last_column > static_cast<int>(cells.size())) {
-      messages.add_in(
-          path_, {line.number, 1},
-          fmt::format("column {} is wanted, but this line has {} cell{}; cells are separated by {}: {}", last_column,
-                      cells.size(), cells.size() == 1 ? "" : "s", in_words(separator_), in_quotes(trimmed(line.text))));
+      messages.add_in(path_, {line.number, 1},
+                      fmt::format("column {} is wanted, but this line has {} cell{}{}: {}", last_column, cells.size(),
+                                  cells.size() == 1 ? "" : "s", separated(), in_quotes(trimmed(line.text))));
       ++bad;
       if (i == data_) break;  // so will all the others
       continue;
@@ -414,8 +429,7 @@ std::vector<std::vector<TableCell>> TableFile::cells(bool may_be_empty) const {
     if (may_be_empty && cells.size() < headings_.size())
       cells.resize(headings_.size(), lines_[i].text.substr(lines_[i].text.size()));
     if (cells.size() != headings_.size())
-      refuse(lines_[i], fmt::format("{} cells under {} headings; cells are separated by {}", cells.size(),
-                                    headings_.size(), in_words(separator_)));
+      refuse(lines_[i], fmt::format("{} cells under {} headings{}", cells.size(), headings_.size(), separated()));
     std::vector<TableCell>& row = rows.emplace_back();
     for (std::size_t k = 0; k < cells.size(); ++k) {
       const Location at = place(lines_[i], cells[k], static_cast<int>(k) + 1);

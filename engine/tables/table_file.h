@@ -51,7 +51,8 @@ class TableFile {
   std::vector<std::string> names() const;
 
   // Columns by their numbers from 1. Rows in which all of them are empty are skipped; faulty cells go into `messages`.
-  TableNumbers numbers(const std::vector<int>& columns, Messages& messages) const;
+  // With `incomplete` rows that lack one of the numbers ("", "NaN", "---", "n/a") are left out, too, and counted there.
+  TableNumbers numbers(const std::vector<int>& columns, Messages& messages, std::size_t* incomplete = nullptr) const;
   // All rows below the headings, one cell for each heading. Throws SceneError for a row with more cells and, unless cells
   // may be empty, with fewer or empty cells.
   std::vector<std::vector<TableCell>> cells(bool may_be_empty = false) const;
@@ -78,6 +79,7 @@ class TableFile {
   std::optional<double> number_in(std::string_view cell) const;
   Location place(const Line& line, std::string_view cell, int column) const;
   std::string place_in_words(const Line& line, int column) const;
+  std::string separated() const;  // "; cells are separated by commas"
 
   std::string path_;
   TableText text_;

@@ -18,7 +18,9 @@ namespace {
 
 void put_number(std::string& text, double value, const NumberFormat& format) {
   if (format.after_point) {
+    const std::size_t begin = text.size();
     fmt::format_to(std::back_inserter(text), "{:.{}f}", value, format.digits);
+    if (value < 0 && text.find_first_of("123456789i", begin) == std::string::npos) text.erase(begin, 1);  // no −0
   } else if (format.digits > 0) {
     append_digits(text, value, format.digits);
   } else {
@@ -33,6 +35,7 @@ class NumbersAsText {
  public:
   explicit NumbersAsText(std::string& text) : text_(text) {}
   void put(double value, const NumberFormat& format) {
+    value += 0.0;  // no −0
     const auto bits = std::bit_cast<std::uint64_t>(value);
     Known& known = known_[bits * 0x9E3779B97F4A7C15 >> 54];
     if (known.count > 0 && known.bits == bits && known.digits == format.digits &&

@@ -7,6 +7,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
@@ -20,6 +21,8 @@ using StudentsT =
     boost::math::students_t_distribution<double,
                                          boost::math::policies::policy<boost::math::policies::promote_double<false>>>;
 
+const char* const without_interval = "without interval: the machine does not show what was measured";
+
 class FitWork {
  public:
   explicit FitWork(const FitOptions& options)
@@ -27,6 +30,8 @@ class FitWork {
     const Scene scene = VariedScene(options.records.front().scene, {}).at({});
     study_.is_of(scene), study_.scene_file = options.records.front().scene.file;
     study_.values = problem_.values_compared();
+    for (const FitRecord& record : problem_.records())
+      if (!record.gaps.empty()) study_.notes.push_back(record.gaps);
   }
 
   FitStudy run() {
@@ -36,8 +41,8 @@ class FitWork {
     if (options_.starts > 1) try_starts(problem_, options_, state_, study_);
     if (state_.best.r.size() == 0 || state_.best.jacobian.size() == 0) return without_fit();
     weigh();
-    say_values();
     say_residuals();
+    say_values();
     if (options_.checks) {
       leave_records_out(problem_, state_, study_);
       try_off_effects(problem_, state_, study_);
@@ -135,8 +140,8 @@ class FitWork {
     constexpr double below_machine_error = 0.5;  // of weights by the residuals it is 1
     study_.chi_squared = by_scatter ? reduced * widened * widened : 0;
     state_.covariance = state_.determined.covariance * std::max(1.0, reduced);
-    const bool of_cycles = by_scatter && study_.chi_squared <= 1 && cycles_ > 1;
-    state_.interval = boost::math::quantile(StudentsT(of_cycles ? cycles_ - 1 : freedom), 0.975);
+    const double known_by = cycles_ > 0 ? std::min(cycles_ - 1, freedom) : freedom;
+    state_.interval = boost::math::quantile(StudentsT(known_by), 0.975);
     state_.has_errors = by_scatter || problem_.values_compared() > problem_.unknowns().size();
     study_.errors_from =
         !state_.has_errors ? ""
@@ -175,6 +180,8 @@ class FitWork {
         reported.remark = "not determined: see what the data cannot separate";
       } else if (!state_.has_errors) {
         reported.remark = "error not assessed: as many unknowns as values, which have no scatter";
+      } else if (misfit_) {
+        reported.remark = without_interval;
       } else {
         reported.error = std::sqrt(state_.covariance(c, c)) * range;
         reported.low = reported.value - state_.interval * *reported.error,
@@ -182,8 +189,10 @@ class FitWork {
         if (*reported.error > 0.5 * range)
           reported.remark = "the data hardly bound it: its error is over half of its range";
       }
+      // Of fewer cycles than unknowns each has a correlation of 1 with others, whatever the machine.
+      const bool correlated = state_.has_errors && (cycles_ == 0 || cycles_ > static_cast<double>(problem_.size()) + 1);
       for (std::size_t other = 0; other < k; ++other)
-        if (const double value = d.correlation(other, k); state_.has_errors && value != 0)
+        if (const double value = d.correlation(other, k); correlated && value != 0)
           study_.correlations.push_back({other, k, value});
     }
     std::stable_sort(study_.correlations.begin(), study_.correlations.end(),
@@ -258,6 +267,8 @@ class FitWork {
         const auto data = c.data().segment(c.begin(k), c.per_channel());
         const double size = c.orders().empty() ? data.maxCoeff() - data.minCoeff() : data.cwiseAbs().maxCoeff();
         if (size > 0) reported.range_part = reported.rms / size;
+        const double varies = c.orders().empty() ? rms(c.data().array() - data.mean()) : size;
+        if (varies > 0) reported.variation_part = reported.rms / varies;
         if (channel.has_scatter()) reported.scatter = rms(c.scatter());
         reported.correlation_length = c.length(k);
         const Eigen::VectorXd m = measured.segment(static_cast<Eigen::Index>(k) * count, count),
@@ -277,6 +288,10 @@ class FitWork {
       }
       if (record.over == Over::angle) say_orders(r, points);
     }
+    misfit_ = std::all_of(problem_.records().begin(), problem_.records().end(), [&](const FitRecord& record) {
+      return std::any_of(study_.residuals.begin(), study_.residuals.end(),
+                         [&](const ChannelResidual& c) { return c.record == record.name && c.is_unexplained(); });
+    });
   }
 
   // Octaves below half the mean rate of points.
@@ -284,27 +299,27 @@ class FitWork {
     constexpr std::size_t fewest = 128;
     constexpr int most = 7;
     if (curve.at.size() < fewest) return;
-    const double step = (curve.at.back() - curve.at.front()) / static_cast<double>(curve.at.size() - 1);
+    const auto count = static_cast<double>(curve.at.size());
+    const double step = (curve.at.back() - curve.at.front()) / (count - 1), resolution = 1 / (count * step);
     std::vector<double> measured, fitted, left;
     const Signal m(curve.at, curve.measured), s(curve.at, curve.shown);
     for (std::size_t i = 0; i < curve.at.size(); ++i) {
       const double at = curve.at.front() + static_cast<double>(i) * step;
       measured.push_back(m.at(at)), fitted.push_back(s.at(at)), left.push_back(m.at(at) - s.at(at));
     }
-    const auto rms = [](const AmplitudeSpectrum& spectrum, double from, double to) {
-      constexpr double hann = 1.5;  // lines that a sine's power is spread over
-      double power = 0;
-      for (std::size_t i = 1; i < spectrum.frequency.size(); ++i)
-        if (spectrum.frequency[i] > from && spectrum.frequency[i] <= to)
-          power += 0.5 * spectrum.amplitude[i] * spectrum.amplitude[i] / hann;
-      return std::sqrt(power);
-    };
-    const AmplitudeSpectrum a = spectrum_of(measured, step), b = spectrum_of(fitted, step), c = spectrum_of(left, step);
+    const std::vector<double> a = powers_of(measured), b = powers_of(fitted), c = powers_of(left);
     double to = 0.5 / step;
-    for (int k = 0; k < most && to > 4 * a.resolution; ++k, to /= 2) {
-      const double from = k + 1 < most && to > 8 * a.resolution ? to / 2 : 0;
-      study_.bands.push_back(
-          {curve.record, curve.channel, curve.unit, from, to, rms(a, from, to), rms(b, from, to), rms(c, from, to)});
+    for (int k = 0; k < most && to > 4 * resolution; ++k, to /= 2) {
+      const double from = k + 1 < most && to > 8 * resolution ? to / 2 : 0;
+      const auto rms = [&](const std::vector<double>& powers) {
+        double sum = 0;
+        for (std::size_t i = 1; i < powers.size(); ++i) {
+          const double frequency = 0.5 * resolution * static_cast<double>(i);
+          if (frequency > from && frequency <= to) sum += powers[i];
+        }
+        return std::sqrt(sum);
+      };
+      study_.bands.push_back({curve.record, curve.channel, curve.unit, from, to, rms(a), rms(b), rms(c)});
     }
   }
 
@@ -333,32 +348,51 @@ class FitWork {
     return orders.empty() ? "" : fmt::format("in the orders compared ({}) ", list_of_orders(std::move(orders)));
   }
 
+  // What the machine does not show stands before any value.
+  std::string doubt() const {
+    constexpr const char* causes = "a unit or a fixed value is wrong, an effect is missing, or the record errs";
+    std::string unexplained;
+    double times = 0;
+    for (const ChannelResidual& r : study_.residuals) {
+      times = std::max(times, r.times().value_or(0));
+      if (r.is_unexplained())
+        unexplained += fmt::format("{}{} in {} ({:.2g} % of its {})", unexplained.empty() ? "" : ", ", r.channel,
+                                   r.record, 100 * r.variation_part, r.of == "points" ? "deviation" : "amplitude");
+    }
+    if (!unexplained.empty())
+      return fmt::format("The machine does not show what was measured: residual of {}; {}{}. ", unexplained, causes,
+                         misfit_ ? ", and values have no interval" : "");
+    constexpr double as_scatter = 2;
+    return study_.chi_squared > as_scatter && times * times > as_scatter
+               ? fmt::format("The residual is {:.3g} times the scatter of the mean: {}. ", times, causes)
+               : "";
+  }
+
   void conclude() {
+    study_.conclusion = doubt();
+    const std::string behind =
+        study_.chi_squared > 0 && study_.conclusion.empty() ? ", as much as the scatter of cycles explains" : "";
+    bool listed = false;
     for (const FittedUnknown& u : study_.unknowns) {
       if (u.unknown.kind != Unknown::Kind::key && study_.unknowns.size() > 3) continue;
-      study_.conclusion +=
-          fmt::format("{}{} = {}{}", study_.conclusion.empty() ? "" : ", ", u.unknown.name,
-                      with_error(u, u.unknown.range.unit), u.remark.empty() ? "" : " (" + u.remark + ")");
+      study_.conclusion += fmt::format("{}{} = {}{}", std::exchange(listed, true) ? ", " : "", u.unknown.name,
+                                       with_error(u, u.unknown.range.unit),
+                                       u.remark.empty() || u.remark == without_interval ? "" : " (" + u.remark + ")");
     }
     double worst = 0;
     bool of_points = false;
     for (const ChannelResidual& r : study_.residuals)
       worst = std::max(worst, r.range_part.value_or(0)), of_points = of_points || r.of == "points";
-    study_.conclusion += fmt::format("; {}the residual is {:.2g} % of the {} at most", orders_compared(), 100 * worst,
-                                     of_points ? "measured range" : "greatest measured amplitude");
-    if (study_.chi_squared > 0)
-      study_.conclusion += study_.chi_squared > 2 ? fmt::format(
-                                                        ", {:.2g} times what the scatter of cycles explains: the "
-                                                        "machine lacks an effect, or the record errs",
-                                                        std::sqrt(study_.chi_squared))
-                                                  : ", as much as the scatter of cycles explains";
+    study_.conclusion += fmt::format("; {}the residual is {:.2g} % of the {} at most{}", orders_compared(), 100 * worst,
+                                     of_points ? "measured range" : "greatest measured amplitude", behind);
     if (!study_.converged) study_.notes.push_back("the fit did not converge; give further starts (--starts 8)");
     double longest = 1;
     for (const ChannelResidual& r : study_.residuals) longest = std::max(longest, r.correlation_length);
-    if (longest > 3)
+    if (longest > ChannelResidual::noise)
       study_.notes.push_back(
-          fmt::format("the residual is correlated over some {:.0f} points: it is no noise; an effect is missing, or "
-                      "the record errs. Errors allow for that length",
+          fmt::format("the residual is correlated over some {:.0f} points: it is no noise; an effect is missing, a "
+                      "fixed value is wrong, or the record errs. Errors allow for that length, not for a value that is "
+                      "wrong",
                       longest));
     if (!study_.confounded.empty()) study_.conclusion += "; " + study_.confounded.front();
   }
@@ -368,6 +402,7 @@ class FitWork {
   FitState state_;
   FitStudy study_;
   double cycles_ = 0;
+  bool misfit_ = false;  // no record is explained
 };
 
 }  // namespace

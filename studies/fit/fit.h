@@ -50,11 +50,18 @@ struct ChannelResidual {
   std::size_t count = 0;                  // values compared
   double rms = 0;                         // of the residual
   std::optional<double> range_part = {};  // over the measured range; of orders over the greatest amplitude
+  double variation_part = 0;              // over the deviation of what was measured; of orders as range_part
   std::optional<double> scatter = {};     // of the mean: RMS of the deviations
   double correlation_length = 1;          // number of correlated values, τ ≥ 1: 1 for noise
   double alike = 0;                       // correlation of measured and fitted points
   double peak = 0, peak_fitted = 0;       // greatest magnitude of the points
   std::optional<double> times() const { return scatter && *scatter > 0 ? std::optional(rms / *scatter) : std::nullopt; }
+  static constexpr double noise = 3;  // longest correlation of it
+  // More than a third of what varies, above the scatter, and no noise: no value of the unknowns shows the record.
+  bool is_unexplained() const {
+    return variation_part > 1.0 / 3 && times().value_or(variation_part * 1e9) > 2 &&
+           (of == "orders" || correlation_length > noise);
+  }
 };
 
 // For a record over the angle, or a predicted one.
@@ -67,7 +74,7 @@ struct OrderFigure {
   std::optional<double> scatter = {};  // of the measured mean
 };
 
-// For a record over time: RMS within a frequency band (Hann window).
+// For a record over time: RMS within a frequency band, of the whole record about its mean, without a window (powers_of).
 struct BandResidual {
   std::string record, channel, unit;
   double from = 0, to = 0;  // [Hz]

@@ -240,6 +240,7 @@ std::vector<Plot> contours(const FitStudy& s) {
   for (const Correlation& c : s.correlations) {
     if (plots.size() >= most) break;
     const FittedUnknown &a = s.unknowns[c.a], &b = s.unknowns[c.b];
+    if (!a.error || !b.error) continue;
     Plot plot{.title = fmt::format("{} and {}: correlation {:+.3f}", a.unknown.name, b.unknown.name, c.value),
               .x = {a.unknown.name, pretty_unit(a.unknown.range.unit)},
               .y = {b.unknown.name, pretty_unit(b.unknown.range.unit)},

@@ -43,7 +43,7 @@ std::vector<std::string> expanded(const RecordRequest& request) {
       continue;
     }
     const std::string before = map.substr(0, star), behind = map.substr(star + 1, equals - star - 1);
-    const std::vector<std::string> names = TableFile(request.file).names();
+    const std::vector<std::string> names = TableFile(request.file, form_of(request.file, request.maps)).names();
     const std::size_t found = maps.size();
     for (const std::string& name : names)
       if (name.size() >= before.size() + behind.size() && name.starts_with(before) && name.ends_with(behind))
@@ -131,6 +131,25 @@ void gather(FitRecord& record, const Measurement& measured) {
   }
 }
 
+// s² of n cycles has n − 1 degrees of freedom: a weight from one pair of values would be chance. It is the mean of s² over
+// as many neighbours as have `enough` of them together.
+void smooth_scatter(FitRecord& record) {
+  constexpr int enough = 30;
+  if (record.cycles < 2 || record.over == Over::mode) return;
+  const auto n = static_cast<std::ptrdiff_t>(record.at.size());
+  const bool around = record.over == Over::angle;
+  const std::ptrdiff_t reach = std::min(enough / (2 * (record.cycles - 1)), static_cast<int>(around ? (n - 1) / 2 : n));
+  for (RecordChannel& c : record.channels) {
+    const std::vector<double> given = c.scatter;
+    for (std::size_t i = 0; i < c.scatter.size(); ++i) {
+      double sum = 0, count = 0;
+      for (std::ptrdiff_t k = static_cast<std::ptrdiff_t>(i) - reach; k <= static_cast<std::ptrdiff_t>(i) + reach; ++k)
+        if (around || (k >= 0 && k < n)) sum += std::pow(given[static_cast<std::size_t>((k + n) % n)], 2), ++count;
+      c.scatter[i] = std::sqrt(sum / count);
+    }
+  }
+}
+
 void require_use(const FitRecord& record) {
   for (const RecordChannel& c : record.channels) {
     if (record.over == Over::mode) continue;
@@ -189,7 +208,7 @@ FitRecord read_record(const RecordRequest& request) {
     for (KnownChannel& c : known) c.unit = "s";
   }
   const Measurement measured = read_measurement(asked, known);
-  record.at = measured.time;
+  record.at = measured.time, record.gaps = measured.gaps();
   record.cycles = request.cycles;
   if (model) record.machine_error = std::max(record.machine_error, model->scene.run.accuracy);
   gather(record, measured);
@@ -199,6 +218,7 @@ FitRecord read_record(const RecordRequest& request) {
   } else if (request.window > 0) {
     record.reach.assign(record.at.size(), 0.5 * request.window);
   }
+  smooth_scatter(record);
   require_use(record);
   return record;
 }

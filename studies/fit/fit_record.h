@@ -46,6 +46,7 @@ struct FitRecord {
   std::vector<RecordChannel> channels;
   double period = 0;            // over the angle: the machine's cycle [rad]
   int cycles = 1;               // in the mean
+  std::string gaps = {};        // which rows are left out
   double machine_error = 1e-7;  // of the simulated values, over the greatest: lower limit of deviations
 };
 

@@ -51,14 +51,15 @@ Eigen::Map<const Eigen::VectorXd> mapped(const std::vector<double>& values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
-// Correlation length of values: 1 + 2 Σ ρ_k up to the first that is not positive.
-double correlation_length(const Eigen::VectorXd& r) {
-  const Eigen::Index n = r.size();
+// Correlation length of the values of each row: 1 + 2 Σ ρ_k up to the first that is not positive.
+constexpr Eigen::Index fewest_correlated = 8;
+double correlation_length(const Eigen::MatrixXd& r) {
+  const Eigen::Index n = r.cols();
   const double power = r.squaredNorm();
-  if (n < 8 || !(power > 0)) return 1;
+  if (n < fewest_correlated || !(power > 0)) return 1;
   double sum = 1;
   for (Eigen::Index k = 1; k < n / 2; ++k) {
-    const double rho = r.head(n - k).dot(r.tail(n - k)) / power;
+    const double rho = r.leftCols(n - k).cwiseProduct(r.rightCols(n - k)).sum() / power;
     if (rho <= 0) break;
     sum += 2 * rho;
   }
@@ -251,19 +252,21 @@ ComparedRecord::ComparedRecord(const FitRecord& record, const std::vector<double
   scatter_ = Eigen::VectorXd::Zero(data_.size());
   std::vector<Eigen::MatrixXd> blocks;
   Eigen::Index common = std::numeric_limits<Eigen::Index>::max();
+  const bool together = points_scatter_together();
   for (std::size_t c = 0; c < record.channels.size(); ++c) {
     const RecordChannel& channel = record.channels[c];
-    const Eigen::MatrixXd& block = blocks.emplace_back(cycles_of(channel));
+    const Eigen::MatrixXd& block =
+        blocks.emplace_back(together ? cycles_of(channel) : Eigen::MatrixXd(0, per_channel_));
     common = std::min(common, block.rows());
     auto part = scatter_.segment(begin(c), per_channel_);
     of_scatter_ = of_scatter_ && channel.has_scatter();
     const double root = std::sqrt(static_cast<double>(record.cycles));
     if (!channel.has_scatter())
       part = sizes(data_.segment(begin(c), per_channel_));
-    else if (block.rows() > 1)
-      part = (block.colwise().squaredNorm().transpose() / static_cast<double>(block.rows() - 1)).cwiseSqrt() / root;
     else if (orders_.empty())
       part = mapped(channel.scatter) / root;
+    else if (block.rows() > 1)
+      part = (block.colwise().squaredNorm().transpose() / static_cast<double>(block.rows() - 1)).cwiseSqrt() / root;
     else  // points taken as independent of each other
       part = (map_.cwiseAbs2() * mapped(channel.scatter).cwiseAbs2()).cwiseSqrt() / root;
   }
@@ -272,6 +275,21 @@ ComparedRecord::ComparedRecord(const FitRecord& record, const std::vector<double
   cycles_.resize(common, data_.size());
   for (std::size_t c = 0; c < blocks.size(); ++c)
     cycles_.middleCols(begin(c), per_channel_) = blocks[c].topRows(common);
+}
+
+// Cycles whose points move together, as by a level of each, are n values, not n times as many as there are points.
+bool ComparedRecord::points_scatter_together() const {
+  constexpr double apart = 2;  // longest correlation of points that scatter each by itself
+  const auto n = static_cast<Eigen::Index>(record_.at.size());
+  for (const RecordChannel& c : record_.channels) {
+    if (!c.cycles.empty() && (n < fewest_correlated || record_.over == Over::mode)) return true;
+    Eigen::MatrixXd rows(static_cast<Eigen::Index>(c.cycles.size()), n);
+    for (Eigen::Index k = 0; k < rows.rows(); ++k)
+      rows.row(k) =
+          (mapped(c.cycles[static_cast<std::size_t>(k)]) - mapped(c.mean)).cwiseQuotient(mapped(c.scatter)).transpose();
+    if (correlation_length(rows) > apart) return true;
+  }
+  return false;
 }
 
 // A row for each cycle: what is compared of it, less that of the mean.
@@ -355,7 +373,7 @@ Eigen::VectorXd ComparedRecord::points_of(const Response& response, const std::v
 void ComparedRecord::weigh_by(const Eigen::VectorXd& left, double unknowns) {
   for (std::size_t c = 0; c < lengths_.size(); ++c)
     if (orders_.empty() && record_.over != Over::mode)
-      lengths_[c] = correlation_length(left.segment(begin(c), per_channel_));
+      lengths_[c] = correlation_length(left.segment(begin(c), per_channel_).transpose());
   const double values = independent(), freedom = std::max(values - unknowns, 1.0);
   double squares = 0, scattered = 0;  // over the scatter
   for (std::size_t c = 0; c < lengths_.size(); ++c) {

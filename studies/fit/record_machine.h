@@ -92,6 +92,7 @@ class ComparedRecord {
   double independent() const;                                             // number of values, correlated ones once
 
  private:
+  bool points_scatter_together() const;
   Eigen::MatrixXd cycles_of(const RecordChannel& channel) const;
   Eigen::VectorXd sizes(const Eigen::VectorXd& data) const;
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
+#include <unsupported/Eigen/FFT>
 
 #include "studies/response/excitation.h"
 
@@ -60,6 +61,33 @@ AmplitudeSpectrum spectrum_of(const std::vector<double>& values, double step) {
     spectrum.amplitude.push_back(std::abs(lines[r]));
   }
   return spectrum;
+}
+
+std::vector<double> powers_of(const std::vector<double>& values) {
+  // kn = (k² + n² − (k − n)²)/2: a convolution, of a power of two for any N (Bluestein 1970).
+  const std::size_t n = values.size();
+  std::size_t length = 1;
+  while (length < 2 * n) length *= 2;
+  const auto chirp = [n](std::size_t k) {
+    return std::polar(1.0, std::numbers::pi * static_cast<double>(k * k % (4 * n)) / static_cast<double>(2 * n));
+  };
+  std::vector<Complex> a(length), b(length), fa, fb;
+  for (std::size_t k = 0; k < n; ++k) {
+    a[k] = values[k] * std::conj(chirp(k));
+    b[k] = chirp(k);
+    if (k > 0) b[length - k] = b[k];
+  }
+  Eigen::FFT<double> fft;
+  fft.fwd(fa, a), fft.fwd(fb, b);
+  for (std::size_t k = 0; k < length; ++k) fa[k] *= fb[k];
+  fft.inv(a, fa);
+  std::vector<double> powers(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double half = std::numbers::pi * static_cast<double>(k) / static_cast<double>(2 * n);
+    const double part = (a[k] * std::conj(chirp(k)) * std::polar(1.0, -half)).real() / static_cast<double>(n);
+    powers[k] = (k == 0 ? 1 : 2) * part * part;
+  }
+  return powers;
 }
 
 std::vector<SpectralLine> strongest_lines(const std::vector<double>& values, double step, std::size_t count) {

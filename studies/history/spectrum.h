@@ -18,6 +18,12 @@ struct AmplitudeSpectrum {
 // fewer than 16 values or a step that is not > 0.
 AmplitudeSpectrum spectrum_of(const std::vector<double>& values, double step);
 
+// Of values at equal distances, any number N of them: the mean squares p_k of cosines of k half waves over all of them,
+//     p_0 = mean²,  p_k = 2 (Σ x_n cos(πk(n + ½)/N)/N)²,  Σ p_k = Σ x_n²/N      (DCT-II; Strang 1999)
+// p_k is of the frequency k/(2N step). The values count as mirrored at their ends: there is no step between the last and
+// the first, as a start from rest has, and no window that would weigh some of them down.
+std::vector<double> powers_of(const std::vector<double>& values);
+
 // A sine among the values, located between the lines of a Hann window (theory 15.3) by the ratio of two of them,
 //     |X_(k+1)|/|X_k| = (1 + δ)/(2 − δ),   |X_k| = A sin(πδ)/(πδ (1 − δ²))
 // if it lies δ lines above the k-th, alone. The influence of other sines, decay or change of frequency is estimated

@@ -11,6 +11,7 @@
 #include "engine/scene/text.h"
 #include "engine/scene/units.h"
 #include "engine/tables/heading.h"
+#include "engine/tables/spreadsheet.h"
 #include "engine/tables/table_file.h"
 
 namespace kurbel {
@@ -46,17 +47,25 @@ Dimension dimension_of(const std::string& si_unit) {
   return parse_unit(si_unit, error)->dimension;
 }
 
+// Minutes as machines' records write them: "U/min", "min-1".
+std::optional<Unit> unit_named(const std::string& text, UnitError& error, const Dimension& wanted) {
+  static constexpr std::string_view per_minute[] = {"U/min", "Upm", "UpM", "UPM", "r/min", "tr/min", "/min", "min-1"};
+  const bool of_minutes = std::count(std::begin(per_minute), std::end(per_minute), text) > 0;
+  const auto unit = parse_unit(text == "-" || text == "1" ? "" : of_minutes ? "1/min" : text, error);
+  return unit ? std::optional(wanted_as(*unit, wanted)) : std::nullopt;
+}
+
 class Reader {
  public:
   Reader(const MeasurementRequest& request, const std::vector<KnownChannel>& channels)
       : request_(request),
         channels_(channels),
-        file_(request.file),
+        file_(request.file, form_of(request.file, request.maps)),
         headings_(file_.headings()),
         messages_(request.file) {}
 
   Measurement read() {
-    out_.file = request_.file;
+    out_.file = request_.file, out_.over_angle = request_.over == "angle";
     std::vector<Option> maps;
     for (const std::string& map : request_.maps)
       maps.push_back(split_option("--map", map, "--map \"T1=torque.main_coupling\""));
@@ -89,7 +98,7 @@ class Reader {
     return heading;
   }
 
-  // From the heading or from the option; both only if they agree.
+  // From the option, or from the heading; both only if they agree, or the heading's is not known.
   std::optional<Source> source_of(const TableHeading& heading, const Option& option, const std::string& channel,
                                   const std::string& si_unit) {
     const auto in_heading = heading.unit, in_option = name_with_unit(option.value).unit;
@@ -101,7 +110,12 @@ class Reader {
                                 in_quotes(heading.text), heading.text, example, heading.text, channel, example));
       return {};
     }
-    if (in_heading && in_option && *in_heading != *in_option) {
+    UnitError error;
+    const Dimension wanted = dimension_of(si_unit);
+    const auto by_heading = in_heading ? unit_named(*in_heading, error, wanted) : std::nullopt,
+               by_option = in_option ? unit_named(*in_option, error, wanted) : std::nullopt;
+    const auto alike = [](const Unit& a, const Unit& b) { return a.factor == b.factor && a.dimension == b.dimension; };
+    if (by_heading && by_option && !alike(*by_heading, *by_option)) {
       messages_.add_in(option.shown, {1, option.value_at},
                        fmt::format("the unit is [{}] here and [{}] in the heading of {}; leave one of them out",
                                    *in_option, *in_heading, request_.file));
@@ -112,10 +126,8 @@ class Reader {
   std::optional<Source> in_unit(const std::string& text, const TableHeading& heading, const std::string& channel,
                                 const std::string& si_unit) {
     UnitError error;
-    const std::string plain = text == "-" || text == "1" ? "" : text;
-    std::optional<Unit> unit = parse_unit(plain, error);
     const Dimension wanted = dimension_of(si_unit);
-    if (unit) *unit = wanted_as(*unit, wanted);
+    const std::optional<Unit> unit = unit_named(text, error, wanted);
     if (unit && unit->dimension == wanted) return Source{heading.column, unit->factor};
     messages_.add(
         heading.at,
@@ -169,7 +181,7 @@ class Reader {
   void read_numbers() {
     std::vector<int> columns = {time_.column};
     for (const Source& source : sources_) columns.push_back(source.column);
-    TableNumbers numbers = file_.numbers(columns, messages_);
+    TableNumbers numbers = file_.numbers(columns, messages_, &out_.rows_left_out);
     messages_.throw_if_any();
     require_ascending(numbers);
     for (double& t : numbers.columns[0]) t *= time_.factor;
@@ -182,7 +194,11 @@ class Reader {
   void require_ascending(const TableNumbers& numbers) {
     const std::vector<double>& t = numbers.columns[0];
     if (t.size() < request_.fewest_rows)
-      messages_.add({}, fmt::format("{} rows; at least {} are needed", t.size(), request_.fewest_rows));
+      messages_.add({}, fmt::format("{} rows; at least {} are needed{}", t.size(), request_.fewest_rows,
+                                    out_.rows_left_out == 0 ? ""
+                                                            : fmt::format("; {} more lack a number in a column that is "
+                                                                          "mapped: map fewer columns at once",
+                                                                          out_.rows_left_out)));
     for (std::size_t i = 1; i < t.size(); ++i)
       if (!(t[i] > t[i - 1])) {
         messages_.add(numbers.at[i],
@@ -208,7 +224,8 @@ class Reader {
   }
   void read_shift() {
     if (request_.shift.empty()) return;
-    if (const auto shift = fitted("--shift " + in_quotes(request_.shift), request_.shift, "s")) out_.shift = *shift;
+    if (const auto shift = fitted("--shift " + in_quotes(request_.shift), request_.shift, request_.over_unit))
+      out_.shift = *shift;
   }
   void read_offset(const std::string& text) {
     if (text == "fit") {
@@ -240,6 +257,27 @@ class Reader {
 };
 
 }  // namespace
+
+TableForm form_of(const std::string& file, const std::vector<std::string>& maps) {
+  std::vector<std::string> columns;
+  for (const std::string& map : maps)
+    if (const std::string column(trimmed(std::string_view(map).substr(0, map.find('='))));
+        column.find('*') == std::string::npos)
+      columns.push_back(column);
+  for (const std::string& name : sheet_names(file)) try {
+      const TableFile sheet(file, {.sheet = name});
+      if (std::all_of(columns.begin(), columns.end(), [&](const std::string& c) { return sheet.find(c); }))
+        return {.sheet = name};
+    } catch (const SceneError&) {  // a sheet without numbers
+    }
+  return {};
+}
+
+std::string Measurement::gaps() const {
+  return rows_left_out == 0 ? ""
+                            : fmt::format("{} of {} rows of {} are omitted: no number in a column that is mapped",
+                                          rows_left_out, rows_left_out + time.size(), file);
+}
 
 Measurement read_measurement(const MeasurementRequest& request, const std::vector<KnownChannel>& channels) {
   if (request.file.empty())

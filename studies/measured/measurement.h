@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/tables/table_file.h"
+
 namespace kurbel {
 
 // As requested by the user.
@@ -17,6 +19,9 @@ struct MeasurementRequest {
   std::size_t fewest_rows = 4;
   bool asked() const { return !file.empty() || !maps.empty() || !shift.empty() || !offsets.empty(); }
 };
+
+// Of a workbook the first sheet that has the columns of all maps; else the first.
+TableForm form_of(const std::string& file, const std::vector<std::string>& maps);
 
 struct KnownChannel {
   std::string name, unit;  // SI
@@ -39,6 +44,10 @@ struct Measurement {
   std::vector<double> time;  // as measured [s], ascending; for another abscissa its values, in SI
   Fitted shift = {};         // simulated time = measured time + shift [s]
   std::vector<MeasuredSignal> signals;
+  bool over_angle = false;        // `time` and shift are angles of the link [rad]
+  std::size_t rows_left_out = 0;  // which lack a number of a mapped column
+  // "3 of 801 rows of test.csv are left out: …"; empty: none.
+  std::string gaps() const;
 };
 
 // Throws SceneError with all errors of file and options and their places, std::invalid_argument if options are missing.

@@ -125,6 +125,20 @@ void add_over_angle(SteadyCycle& c, const Measurement& m, const Alignment& a) {
   c.traces = traces;
 }
 
+// A record over the link's angle, in the time of the cycle. Empty: the link turns back, and passes an angle repeatedly.
+std::optional<Measurement> in_time(Measurement m, const SteadyCycle& c) {
+  if (!m.over_angle) return m;
+  const auto angle = signal_of(c, "angle");
+  if (!angle || !std::is_sorted(angle->value().begin(), angle->value().end())) return {};
+  const Signal time(angle->value(), angle->time());
+  for (double& at : m.time) {
+    const double turned = at + m.shift.value, whole = std::floor(turned / c.model->cycle);
+    at = whole * c.cycle_time + time.at(angle->value().front() + turned - whole * c.model->cycle);
+  }
+  m.shift.value = 0;
+  return m;
+}
+
 }  // namespace
 
 Signal signal_of(const Result& r, const std::string& channel) {
@@ -153,6 +167,7 @@ std::vector<KnownChannel> channels_of_cycle(const Model& model) {
 
 Overlay lay_over(const Measurement& measurement, Result& run) {
   Overlay overlay{.measurement = measurement, .models = {}};
+  if (measurement.rows_left_out > 0) overlay.notes.push_back(measurement.gaps());
   overlay.speed = run.model->scene.speed_unit;
   ModelOverlay model{.label = run.label, .simulated = {}, .alignment = {}};
   if (!is_elastic(*run.model)) model.role = Role::rigid;
@@ -182,6 +197,7 @@ Overlay lay_over(const Measurement& measurement, Result& run) {
 
 Overlay lay_over(const Measurement& measurement, SteadyStudy& study) {
   Overlay overlay{.measurement = measurement, .models = {}, .of_cycle = true};
+  if (measurement.rows_left_out > 0) overlay.notes.push_back(measurement.gaps());
   for (SteadyCycle& c : study.cycles) {
     overlay.speed = c.model->scene.speed_unit;
     ModelOverlay model{.label = c.label, .simulated = {}, .alignment = {}};
@@ -193,14 +209,17 @@ Overlay lay_over(const Measurement& measurement, SteadyStudy& study) {
                                           measurement.file, measurement.signals.front().channel));
       continue;
     }
-    const std::optional<Alignment> alignment = align(measurement, model.simulated);
+    const std::optional<Measurement> here = in_time(measurement, c);
+    const std::optional<Alignment> alignment = here ? align(*here, model.simulated) : std::nullopt;
     if (!alignment) {
-      overlay.notes.push_back(c.label + " model: " + none_in_common(measurement));
+      overlay.notes.push_back(c.label + " model: " +
+                              (here ? none_in_common(measurement)
+                                    : measurement.file + " is not laid over it: its link turns back within the cycle"));
       continue;
     }
-    if (std::string other = other_speed(c, measurement, *alignment); !other.empty()) overlay.notes.push_back(other);
-    add_figures(c.figures, measurement, *alignment);
-    add_over_angle(c, measurement, *alignment);
+    if (std::string other = other_speed(c, *here, *alignment); !other.empty()) overlay.notes.push_back(other);
+    add_figures(c.figures, *here, *alignment);
+    add_over_angle(c, *here, *alignment);
     model.alignment = *alignment;
     overlay.models.push_back(std::move(model));
   }

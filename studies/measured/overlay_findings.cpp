@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/tables/heading.h"
 #include "studies/answers/measured_names.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/plots.h"
@@ -55,6 +56,8 @@ Rows table_of(const Overlay& o) {
 }
 
 std::string shift_in_words(const Overlay& o, const ModelOverlay& m) {
+  if (o.measurement.over_angle && !o.measurement.shift.fit)
+    return m.label + " model: laid over it by the link's angle; time 0: the link passes its zero";
   return fmt::format("{} model: simulated time = measured time {} {}{}{}", m.label,
                      m.alignment.shift.value < 0 ? "−" : "+", reported(abs(m.alignment.shift), "s", {}),
                      o.measurement.shift.fit ? ", found by least squares" : "",
@@ -214,7 +217,12 @@ StudyOutput cycles_under(const MeasurementRequest& request, const Scene& scene, 
                          SteadyOptions options) {
   std::optional<Measurement> measurement;
   if (request.asked()) {
-    measurement = read_measurement(request, channels_of_cycle(*compile(scene, effects.back())));
+    MeasurementRequest asked = request;
+    if (std::any_of(asked.maps.begin(), asked.maps.end(), [](const std::string& map) {
+          return name_with_unit(map.substr(map.find('=') + 1)).name == "angle";
+        }))
+      asked.over = "angle", asked.over_unit = "rad";
+    measurement = read_measurement(asked, channels_of_cycle(*compile(scene, effects.back())));
     options.traces = true;
   }
   MeasuredCycles cycles{steady(scene, effects, options)};

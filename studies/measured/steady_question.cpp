@@ -8,14 +8,15 @@ namespace kurbel {
 const OptionsOf<MeasurementRequest>& measurement_options() {
   static const auto made =
       OptionsOf<MeasurementRequest>()
-          .add({.name = "measured",
-                .doc = "a test's record (CSV: headings with units, a column \"time [s]\"), drawn over the plots; the "
-                       "difference is given as figures"},
-               &MeasurementRequest::file)
+          .add(
+              {.name = "measured",
+               .doc = "a test's record (CSV, XLSX or MAT: headings with units, a column \"time [s]\"; rows that lack a "
+                      "number are omitted), drawn over the plots; the difference is given as figures"},
+              &MeasurementRequest::file)
           .add({.name = "map",
                 .doc = "which column of the record is which channel, e.g. \"T1=torque.main_coupling\"; with a unit "
                        "where the heading has none, \"T1=torque.main_coupling [kN*m]\"; \"COLUMN=time [ms]\" for the "
-                       "time; repeatable",
+                       "time; for steady cycles \"COLUMN=angle [deg]\": over the link's angle; repeatable",
                 .each_time = true},
                &MeasurementRequest::maps)
           .add({.name = "shift",

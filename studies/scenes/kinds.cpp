@@ -147,15 +147,15 @@ std::string keys_of(const std::string& name) {
   if (name == "run") return "[run]: what is simulated, and how well.\n\n" + aligned(run_keys());
   if (name == "figure") return "[[figure]]: a functional of a channel over a window.\n\n" + aligned(figure_keys());
   if (name == "operation") return "[operation]: where the machine runs for long.\n\n" + aligned(operation_keys());
-  std::string text;
+  std::vector<std::string> parts;  // a kind that stands in several components, once
   for (const Kind* kind : kinds_with_nested()) {
     if (kind->name != name) continue;
     const bool nested = kind->placement == Placement::nested;
-    text += fmt::format("{}{} — {}.{}{}\n\n", text.empty() ? "" : "\n", kind->name, kind->doc,
-                        kind->elastic ? " Its elasticity is an effect." : "",
-                        nested                                     ? " Stands inside a component."
-                        : kind->placement == Placement::inline_two ? " Two shafts: .in and .out."
-                                                                   : "");
+    std::string text =
+        fmt::format("{} — {}.{}{}\n\n", kind->name, kind->doc, kind->elastic ? " Its elasticity is an effect." : "",
+                    nested                                     ? " Stands inside a component."
+                    : kind->placement == Placement::inline_two ? " Two shafts: .in and .out."
+                                                               : "");
     text += aligned(kind->keys);
     for (const Key& key : kind->keys)
       if (key.nested) {
@@ -163,8 +163,9 @@ std::string keys_of(const std::string& name) {
         for (const Kind& inner : *key.nested) names.push_back(inner.name);
         text += fmt::format("\n  {}: tables of kind {}; see kurbel keys {}\n", key.name, listed(names), names.front());
       }
+    if (std::find(parts.begin(), parts.end(), text) == parts.end()) parts.push_back(std::move(text));
   }
-  return text;
+  return fmt::format("{}", fmt::join(parts, "\n"));
 }
 
 std::string meanings_of_key(const std::string& name) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "engine/scene/keys.h"
@@ -21,6 +22,7 @@ std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share);
 // All three end at the same digit, by the width of the interval.
 std::string interval_words(const Index& i) {
   if (i.low == i.high) return figure_text({i.value}, 3).value;
+  if (std::abs(i.value) < 1e-4 && i.high < 1e-3) return fmt::format("{:.1g} ({:.1g} … {:.1g})", i.value, i.low, i.high);
   const std::string value = figure_text({i.value, 0.5 * (i.high - i.low)}, 3).value;
   const std::size_t point = value.find('.'), places = point == std::string::npos ? 0 : value.size() - point - 1;
   return fmt::format("{} ({:.{}f} … {:.{}f})", value, i.low, places, i.high, places);
@@ -345,13 +347,18 @@ Claims share_claims(const std::vector<LimitCount>& limits, std::size_t failed, s
   add(claims, claimed_aside(Predicate::machines_failed, fmt::format("{} of {} machines failed", failed, machines), {},
                             {.value = static_cast<double>(failed), .limit = 0}));
   for (const LimitCount& c : limits)
-    if (const auto decided = static_cast<double>(c.decided()); decided > 0)
-      add(claims, claimed_aside(Predicate::share_holds,
-                                fmt::format("{} holds in {:.3g} … {:.3g} % of such machines", limit_in_words(c.limit),
-                                            100 * c.interval.low, 100 * c.interval.high),
-                                {},
-                                {.value = static_cast<double>(c.holds) / decided,
-                                 .error = 0.5 * (c.interval.high - c.interval.low)}));
+    if (const auto decided = static_cast<double>(c.decided()); decided > 0) {
+      const bool by_chance = std::isfinite(c.interval.low);  // a grid has no interval
+      add(claims,
+          claimed_aside(
+              Predicate::share_holds,
+              limit_in_words(c.limit) + (by_chance ? fmt::format(" holds in {:.3g} … {:.3g} % of such machines",
+                                                                 100 * c.interval.low, 100 * c.interval.high)
+                                                   : fmt::format(" holds in {} of {} machines", c.holds, c.decided())),
+              {},
+              {.value = static_cast<double>(c.holds) / decided,
+               .error = by_chance ? std::optional(0.5 * (c.interval.high - c.interval.low)) : std::nullopt}));
+    }
   return claims;
 }
 

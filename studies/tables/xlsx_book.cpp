@@ -44,7 +44,8 @@ std::string column_letters(std::size_t column) {
 void put_cell(std::string& to, std::size_t row, std::size_t column, const DataCell& cell) {
   const auto place = [&] { return column_letters(column) + std::to_string(row); };
   if (const double* number = std::get_if<double>(&cell)) {
-    if (std::isfinite(*number)) fmt::format_to(std::back_inserter(to), "<c r=\"{}\"><v>{}</v></c>", place(), *number);
+    if (std::isfinite(*number))
+      fmt::format_to(std::back_inserter(to), "<c r=\"{}\"><v>{}</v></c>", place(), *number + 0.0);
   } else if (const std::string* text = &std::get<std::string>(cell); !text->empty()) {
     fmt::format_to(std::back_inserter(to), "<c r=\"{}\" t=\"inlineStr\"><is><t xml:space=\"preserve\">", place());
     put_escaped(to, cut_at_character(*text, longest_text));

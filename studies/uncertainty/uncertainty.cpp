@@ -278,8 +278,11 @@ class UncertaintyWork {
     });
     if (figure != study_.figures.end()) {
       const ToleranceShare& most = figure->shares.front();
-      text += fmt::format("{}{} is {} with a standard deviation of {} due to the tolerances", text.empty() ? "" : "; ",
-                          figure->figure.name, reported(*figure, *figure), reported(*figure, figure->deviation(), 2));
+      text += fmt::format(
+          "{}{} is {} for the values as given{}, with a standard deviation of {} due to the tolerances",
+          text.empty() ? "" : "; ", figure->figure.name, reported(*figure, *figure),
+          figure->samples > 1 ? " and " + reported(*figure, figure->mean) + " on average over the machines drawn" : "",
+          reported(*figure, figure->deviation(), 2));
       text += figure->is_linear()
                   ? fmt::format("; {} contributes most: without its tolerance the deviation would be {}",
                                 swept_[most.parameter].path, reported(*figure, most.without, 2))

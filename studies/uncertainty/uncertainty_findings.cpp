@@ -54,8 +54,16 @@ Rows figure_table(const UncertaintyStudy& s) {
   add_error(s, table, "noise_floor", "noise floor", &F::by_gradients);
   add_quantity(s, table, "by_samples", "by samples", &F::by_samples, 3);
   add_quantity(s, table, "mean", "mean", &F::mean, 5);
-  add_quantity(s, table, "low", "95 % from", &F::low, 5);
-  add_quantity(s, table, "high", "to", &F::high, 5);
+  // However uncertain the ends are, their digits show how far they lie apart.
+  const auto end = [](std::optional<Estimate> F::*member) {
+    return [member](const F& f) {
+      std::optional<Estimate> at = f.*member;
+      if (at && at->error && f.low && f.high) at->error = std::min(*at->error, (f.high->value - f.low->value) / 10);
+      return at;
+    };
+  };
+  add_quantity(s, table, "low", "95 % from", end(&F::low), 5);
+  add_quantity(s, table, "high", "to", end(&F::high), 5);
   return add_unit(s, table).column("samples", "samples", &F::samples);
 }
 

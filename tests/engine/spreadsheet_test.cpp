@@ -81,6 +81,12 @@ TEST_F(Spreadsheet, ASheetIsReadByItsName) {
   EXPECT_EQ(first.numbers({1, 2}, messages).columns[1], (std::vector<double>{2})) << "the first sheet unless asked";
 }
 
+TEST_F(Spreadsheet, NamesItsSheets) {
+  write(book(""));
+  EXPECT_EQ(sheet_names(path_), (std::vector<std::string>{"Notes", "Curve"}));
+  EXPECT_TRUE(sheet_names("record.csv").empty());
+}
+
 TEST_F(Spreadsheet, BadCellsHaveTheNamesOfTheSheet) {
   write(book(std::string(rows) + R"(<row r="6"><c r="B6"><v>1600</v></c><c r="D6" t="e"><v>#DIV/0!</v></c></row>)"));
   const TableFile file(path_, {.sheet = "Curve"});

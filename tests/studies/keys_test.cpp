@@ -108,5 +108,17 @@ TEST(Documents, AnswerOfTheReadmeIsThatOfTheProgram) {
   EXPECT_EQ(rows, 6);
 }
 
+// However many components a kind stands in, each of its tables is printed once.
+TEST(Keys, AKindIsPrintedOnce) {
+  for (const std::string& name : names_of_keys()) {
+    const std::string text = keys_of(name), head = "\n" + name + " — ";
+    for (std::size_t at = 0; at != std::string::npos; at = text.find(head, at + 1)) {
+      const std::size_t end = text.find(head, at + 1);
+      const std::string part = text.substr(at == 0 ? 0 : at + 1, end - (at == 0 ? 0 : at + 1));
+      EXPECT_EQ(text.find(part, at + 2), std::string::npos) << name;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kurbel::keys_test

@@ -289,5 +289,65 @@ TEST_F(Measured, UnitsOfHeadingsAndOptionsAreConvertedToSi) {
   }
 }
 
+// Rows of which a mapped column has no number are left out and counted; other columns do not matter.
+TEST_F(Measured, RowsWithoutANumberAreLeftOut) {
+  const std::string path =
+      file("time [s];T1 [N*m];w [rpm]\n0;1,5;2\n1;;3\n2;3,5;NaN\n3;4,5;---\n4;5,5;6\n5;6,5;7\n6;7,5\n");
+  const Measurement torque = read_measurement({path, {"T1=torque.shaft"}, "", {}}, two);
+  EXPECT_EQ(torque.time, (std::vector<double>{0, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(torque.gaps(), "1 of 7 rows of " + path + " are omitted: no number in a column that is mapped");
+  MeasurementRequest both = {path, {"T1=torque.shaft", "w=speed.b"}, "", {}};
+  both.fewest_rows = 3;
+  EXPECT_EQ(read_measurement(both, two).signals[0].values, (std::vector<double>{1.5, 5.5, 6.5}));
+  EXPECT_NE(said_of(path, {"", {"T1=torque.shaft", "w=speed.b"}, "", {}}).find("4 more lack a number"),
+            std::string::npos);
+  EXPECT_EQ(
+      read_measurement({file("time [s],T1 [N*m]\n0,1\n1,2\n2,3\n3,4\n"), {"T1=torque.shaft"}, "", {}}, two).gaps(), "");
+}
+
+// One unit, written twice in different ways, is no contradiction; one that the heading has and nobody knows gives way.
+TEST_F(Measured, TheUnitOfAMapGivesWayToNone) {
+  const auto speed_of = [&](const std::string& heading, const std::string& map) {
+    return read_measurement({file("time [s];" + heading + "\n0;60\n1;60\n2;60\n3;30\n"), {map}, "", {}}, two)
+        .signals.at(0)
+        .values.at(0);
+  };
+  for (const char* heading : {"n [rpm]", "n (U/min)", "n [1/min]", "n [min-1]", "n [Umdr]", "n"})
+    for (const char* unit : {"rpm", "U/min", "min-1"})
+      EXPECT_NEAR(speed_of(heading, fmt::format("n=speed.b [{}]", unit)), 2 * std::numbers::pi, 1e-12)
+          << heading << unit;
+  EXPECT_NEAR(speed_of("Drehzahl n (U/min)", "Drehzahl n=speed.b"), 2 * std::numbers::pi, 1e-12);
+  EXPECT_EQ(speed_of("T1 [N·m]", "T1=torque.shaft [N*m]"), 60);
+  EXPECT_NE(said_of(file("time [s];n [rpm]\n0;1\n"), {"", {"n=speed.b [Hz]"}, "", {}}).find("leave one of them out"),
+            std::string::npos);
+}
+
+// Over the link's angle, three times around, late by 0.3 rad: as over time.
+TEST_F(Measured, ASteadyCycleTakesTheAngleOfItsLink) {
+  const Scene scene = scene_file("scenes/crank_press.toml");
+  SteadyOptions options;
+  options.traces = true, options.start_search = false;
+  SteadyStudy study = steady(scene, {scene.effects}, options);
+  ASSERT_TRUE(study.complete) << study.diagnosis;
+  const SteadyCycle& c = study.cycles.front();
+  const auto& last = c.traces->last_cycles.back();
+  const Trace* found = nullptr;
+  for (const Trace& trace : last.traces)
+    if (trace.name == "torque.main_coupling") found = &trace;
+  ASSERT_TRUE(found);
+  std::string text = "angle [deg],T [N*m]\n";
+  const Signal exact(found->x, found->y);
+  for (int i = 1; i < 900; ++i) {
+    const double angle = 3 * c.model->cycle * i / 900, in_cycle = std::fmod(angle, c.model->cycle);
+    if (in_cycle < exact.begin() || in_cycle > exact.end()) continue;
+    text += fmt::format("{},{}\n", (angle - 0.3) * 180 / std::numbers::pi, exact.at(in_cycle));
+  }
+  MeasurementRequest request{file(text), {"T=torque.main_coupling"}, "0.3 rad", {}};
+  request.over = "angle", request.over_unit = "rad";
+  const Overlay o = lay_over(read_measurement(request, channels_of_cycle(*c.model)), study);
+  ASSERT_EQ(o.models.size(), 1u) << (o.notes.empty() ? "" : o.notes.front());
+  EXPECT_LT(*o.models[0].alignment.signals[0].relative, 1e-3);
+}
+
 }  // namespace
 }  // namespace kurbel::test::measured_test

@@ -81,7 +81,7 @@ TEST(RecordMachine, ADeadCentreMovesTheTableTogetherWithTheStart) {
   EXPECT_GT(off, 1e-3);
 }
 
-// s² = Σ (y − ȳ)²/(n − 1) of each point: 1, 2, 3 have 1; 4, 4, 7 have 3.
+// s² = Σ (y − ȳ)²/(n − 1) of each point: 1, 2, 3 have 1; 4, 4, 7 have 3. Of three cycles it is the mean over fifteen points.
 TEST(FitRecord, ScatterOfCyclesIsTheirStandardDeviation) {
   const fs::path file = fs::temp_directory_path() / ("kurbel_scatter_" + std::to_string(getpid()) + ".csv");
   std::ofstream(file) << "t [s],c1 [rad/s],c2 [rad/s],c3 [rad/s]\n0,1,2,3\n1,4,4,7\n2,5,9,1\n3,1,0,-1\n";
@@ -94,7 +94,7 @@ TEST(FitRecord, ScatterOfCyclesIsTheirStandardDeviation) {
   const RecordChannel& c = record.channels[0];
   for (std::size_t k = 0; k < 4; ++k) {
     EXPECT_NEAR(c.mean[k], (std::array{2.0, 5.0, 5.0, 0.0}[k]), 1e-15);
-    EXPECT_NEAR(c.scatter[k], std::sqrt(std::array{1.0, 3.0, 16.0, 1.0}[k]), 1e-15);
+    EXPECT_NEAR(c.scatter[k], std::sqrt((1 + 3 + 16 + 1) / 4.0), 1e-15);
   }
 }
 

@@ -15,9 +15,9 @@ namespace kurbel::sweep_report_test {
 namespace {
 
 // A 2 × 2 × 2 grid of a, b, c ∈ {0, 1} with y = 10 a + 4 b + c, known to ± 2.
-SweepStudyResult study_of_a_cube(const std::vector<std::string>& limits) {
+SweepStudyResult study_of_a_cube(const std::vector<std::string>& limits, const std::string& design = "random:8") {
   SweepIdentity identity;
-  identity.meta = {{"design", "random:8"}, {"of", "run"}, {"scene file", "x.toml"}, {"seed", "1"}};
+  identity.meta = {{"design", design}, {"of", "run"}, {"scene file", "x.toml"}, {"seed", "1"}};
   for (const char* given : {"a.x=0..1", "b.x=0..1", "c.x=0..1"}) identity.parameters.push_back(parse_parameter(given));
   identity.figures = {{"y", ""}};
   identity.rows = 8;
@@ -72,6 +72,17 @@ TEST(SweepReport, TheUndecidedCountAgainstALimitAtOneEndAndForItAtTheOther) {
   // Clopper and Pearson, 95 %: of 8 trials 3 and 4 successes (tables: 0.0852 … 0.7551, 0.1570 … 0.8430).
   EXPECT_NEAR(c.interval.low, 0.0852, 1e-4);
   EXPECT_NEAR(c.interval.high, 0.8430, 1e-4);
+}
+
+// Points of a grid are no random ones: a share without interval, in words and for programs.
+TEST(SweepReport, AShareOfAGridHasNoInterval) {
+  const SweepStudyResult s = study_of_a_cube({"y <= 6.5"}, "grid 2 x 2 x 2");
+  EXPECT_TRUE(std::isnan(s.tally.limits.at(0).interval.low));
+  const Claims claims = share_claims(s.tally.limits, 0, 8);
+  ASSERT_EQ(claims.size(), 1u);
+  EXPECT_EQ(claims[0].text, "y ≤ 6.5 holds in 3 of 8 machines");
+  EXPECT_FALSE(claims[0].evidence.error);
+  EXPECT_EQ(StudyOutput{findings_of(s)}.json().find("nan"), std::string::npos);
 }
 
 // Every combination once is the whole truth of a table: y = 7 a + a b over a ∈ {0, 1, 2, 3}, b ∈ {1, 3, 8} has V(E[y|a]) =

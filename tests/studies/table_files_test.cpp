@@ -231,5 +231,15 @@ TEST(TableFiles, EveryStudysTablesAreMade) {
   EXPECT_EQ(read.number("data_2", 1, 2), 0.333) << "as in the other files";
 }
 
+TEST(TableFiles, HoldNoNegativeZero) {
+  DataTable table;
+  table.columns = {{.name = "a"}, {.name = "b", .format = {3}}, {.name = "c", .format = {3, true}}};
+  table.each_row = [](const std::function<void(DataRow)>& take) {
+    for (const double x : {-0.0, -0.0004, -0.0006}) take(std::vector<DataCell>{-0.0, -0.0, x});
+  };
+  EXPECT_EQ(csv_text(table), "a,b,c\n0,0,0.000\n0,0,0.000\n0,0,-0.001\n");
+  EXPECT_EQ(json_text({{"a", -0.0}}).find('-'), std::string::npos);
+}
+
 }  // namespace
 }  // namespace kurbel::test::table_files_test
