@@ -176,9 +176,8 @@ class LinkageForceBuilder {
   }
 
   // On the frame it stands; else the first link has it, or the one that is named.
-  template <class K, class M>
-  std::optional<LinkageTravel::Place> place_of(const K& k, M member, const std::string& name,
-                                               const std::string& link = "") const {
+  std::optional<LinkageTravel::Place> place_of(const std::string& name, const std::string& link,
+                                               std::string& fault) const {
     for (int p = 0; p < static_cast<int>(s_.points.size()); ++p) {
       if (s_.points[static_cast<std::size_t>(p)].name != name) continue;
       std::vector<std::string> bodies;
@@ -187,11 +186,11 @@ class LinkageForceBuilder {
         if (link.empty() || s_.name_of(body) == link) return LinkageTravel::Place{body, p};
         bodies.push_back(s_.name_of(body));
       }
-      k.refuse(member, not_through(name, link, bodies));
+      fault = not_through(name, link, bodies);
       return {};
     }
-    k.refuse(member, fmt::format("unknown point \"{}\"{}; the sketch has {}", name,
-                                 suggestion(name, names_of(s_.points)), shortened_list(names_of(s_.points), "and")));
+    fault = fmt::format("unknown point \"{}\"{}; the sketch has {}", name, suggestion(name, names_of(s_.points)),
+                        shortened_list(names_of(s_.points), "and"));
     return {};
   }
   static std::string not_through(const std::string& point, const std::string& link,
@@ -208,8 +207,12 @@ class LinkageForceBuilder {
       k.refuse(on, "must name one point, of a pin with the link before it: \"B\" or \"rocker B\"");
       return {};
     }
-    auto place = place_of(k, on, parts.back());
-    if (!place) return {};
+    std::string fault;
+    auto place = place_of(parts.back(), "", fault);
+    if (!place) {
+      k.refuse(on, fault);
+      return {};
+    }
     if (place->body == LinkageSketch::frame) {
       k.refuse(on, fmt::format("the point {} stands still; name one of a moving link", parts.back()));
       return {};
@@ -228,22 +231,27 @@ class LinkageForceBuilder {
   }
   template <class K, class M>
   std::optional<LinkageTravel> between(const K& k, M member, const std::string& text) const {
+    std::string fault;
+    const std::optional<LinkageTravel> travel = between(text, fault);
+    if (!travel) k.refuse(member, fault);
+    return travel;
+  }
+  std::optional<LinkageTravel> between(const std::string& text, std::string& fault) const {
     std::vector<std::string> two, links;
     for (const std::string& word : words_in(text)) {
-      const bool is_link = named(s_.links, word) && (links.size() == two.size()) && !named(s_.points, word);
+      const bool is_link = links.size() == two.size() && named(s_.links, word) && !named(s_.points, word);
       if (links.size() == two.size()) links.emplace_back();
       (is_link ? links.back() : two.emplace_back()) = word;
     }
-    if (two.size() != 2 || links.size() != 2 || two[0] == two[1]) {
-      k.refuse(member, "must name two points, of a pin with the link before it: \"A C\" or \"rod A barrel C\"");
-      return {};
-    }
-    const auto from = place_of(k, member, two[0], links[0]), to = place_of(k, member, two[1], links[1]);
-    if (!from || !to) return {};
+    fault = "must name two points, of a pin with the link before it: \"A C\" or \"rod A barrel C\"";
+    if (two.size() != 2 || links.size() != 2 || two[0] == two[1]) return {};
+    const auto from = place_of(two[0], links[0], fault);
+    const auto to = from ? place_of(two[1], links[1], fault) : std::nullopt;
+    if (!to) return {};
     for (int body = LinkageSketch::frame; body < static_cast<int>(s_.links.size()); ++body)
       if (s_.has(body, from->point) && s_.has(body, to->point)) {
-        k.refuse(member, fmt::format("{} and {} keep their distance on the {}; name points of different links", two[0],
-                                     two[1], s_.name_of(body)));
+        fault = fmt::format("{} and {} keep their distance on the {}; name points of different links", two[0], two[1],
+                            s_.name_of(body));
         return {};
       }
     return LinkageTravel{LinkageTravel::Of::distance, *from, *to, 0};
@@ -252,13 +260,15 @@ class LinkageForceBuilder {
   // Accounts and channels go by the name.
   template <class K>
   bool is_named_well(const K& k) {
-    const std::string& name = k.section().name;
+    const std::string fault = fault_of_name(k.section().name);
+    return fault.empty() || k.refuse(fault);
+  }
+  std::string fault_of_name(const std::string& name) {
     if (name.starts_with("load") || name == "joints")
-      return k.refuse(
-          fmt::format("\"{}\" is what the linkage's own loads and joints go by; give it another name", name));
+      return fmt::format("\"{}\" is what the linkage's own loads and joints go by; give it another name", name);
     if (!taken_.insert(name).second)
-      return k.refuse(fmt::format("the name \"{}\" is given twice among springs, forces and couples", name));
-    return true;
+      return fmt::format("the name \"{}\" is given twice among springs, forces and couples", name);
+    return {};
   }
 
   static void add_spring(Mechanism& m, double stiffness, double free, double preload, double damping) {
@@ -278,19 +288,24 @@ class LinkageForceBuilder {
   template <class K, class M, class Laws>
   void put(const K& k, M member, const LinkageTravel& travel, const Laws& laws) {
     if (const std::string fault = fault_of(*linkage_, travel); !fault.empty()) return void(k.refuse(member, fault));
-    const std::string name = section_.name + "." + k.section().name;
+    std::string fault;
+    std::optional<Mechanism> mechanism = tabulated(k.section().name, travel, fault);
+    if (mechanism && !laws(*mechanism)) return;
+    if (mechanism && mechanism->loads.empty()) fault = "has no law; give it one, or leave it out";
+    if (!fault.empty()) return void(k.refuse(fault));
+    made.push_back(std::move(*mechanism));
+  }
+  std::optional<Mechanism> tabulated(const std::string& own, const LinkageTravel& travel, std::string& fault) const {
     std::optional<Mechanism> mechanism;
     try {
-      mechanism.emplace(name, LinkageTravelData{linkage_, travel});
+      mechanism.emplace(section_.name + "." + own, LinkageTravelData{linkage_, travel});
+      mechanism->phase = phase_;
     } catch (const OutOfTime&) {
       throw;
     } catch (const std::exception& error) {
-      return void(k.refuse(fmt::format("cannot be tabulated: {}", error.what())));
+      fault = fmt::format("cannot be tabulated: {}", error.what());
     }
-    mechanism->phase = phase_;
-    if (!laws(*mechanism)) return;
-    if (mechanism->loads.empty()) return void(k.refuse("has no law; give it one, or leave it out"));
-    made.push_back(std::move(*mechanism));
+    return mechanism;
   }
 
   const Section& section_;
