@@ -1,4 +1,4 @@
-// simbody_module.h — what is linked with Simbody: a module within the program, loaded when a mechanism's bodies are first asked for.
+// simbody_module.h — what is linked with Simbody: a module within the program, loaded when a mechanism's bodies are first needed.
 #pragma once
 
 #include <memory>
