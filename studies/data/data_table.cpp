@@ -72,11 +72,11 @@ std::string heading_of(const std::string& name, const std::optional<std::string>
 }
 
 double as_written(double value, const NumberFormat& format) {
-  if (!std::isfinite(value) || (format.digits == 0 && !format.after_point)) return value;
+  if (!std::isfinite(value) || (format.digits == 0 && !format.after_point)) return value + 0.0;  // no −0
   std::string digits;
   put_number(digits, value, format);
   std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  return value;
+  return value + 0.0;
 }
 
 std::string csv_text(const DataTable& table) {

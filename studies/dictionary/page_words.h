@@ -202,10 +202,10 @@ inline constexpr PageWord of_pages[] = {
     {"excitation; meet at; order meets mode at; largest response at; meetings, larger ones severer; severity where "
      "they meet",
      of_trains, "where a harmonic of a torque equals a natural frequency, and the amplitude of the response there"},
-    {"margin [%]; undamped margin [%]; nearest margin; ± 10 %; within ± 10 % *; 95 % of it by tolerances; kept with "
+    {"margin [%]; margin at it [%]; nearest margin; ± 10 %; within ± 10 % *; 95 % of it by tolerances; kept with "
      "probability; as given",
      of_trains,
-     "separation margin: speed of the largest response, or meeting speed (undamped), over the nearest operating speed, "
+     "separation margin: meeting speed (undamped), or speed of the largest response, over the nearest operating speed, "
      "less one; required 10 %; its range by tolerances"},
     {"in the cycle; in the steady motion; linear − cycle; linear − steady motion; in the nonlinear cycle; linear drive",
      of_trains, "the linear response beside the same of the nonlinear cycle, and the difference of both"},

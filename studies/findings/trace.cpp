@@ -15,7 +15,7 @@ constexpr std::size_t full = 16000, thinned = 8000, rows_of_block = 128;
 
 void push(Trace& trace, double x, double y) {
   trace.x.push_back(x);
-  trace.y.push_back(y);
+  trace.y.push_back(y + 0.0);  // no −0
   if (trace.x.size() >= full) thin_by_extremes(trace.x, trace.y, thinned);
 }
 
@@ -24,7 +24,7 @@ void append(Trace& trace, const std::vector<double>& x, const double* y) {
     for (std::size_t i = 0; i < x.size(); ++i) push(trace, x[i], y[i]);
   } else {
     trace.x.insert(trace.x.end(), x.begin(), x.end());
-    trace.y.insert(trace.y.end(), y, y + x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) trace.y.push_back(y[i] + 0.0);
   }
 }
 

@@ -147,10 +147,10 @@ void find_rows(const std::vector<CrossingResponse>& responses, double slowest, d
       if (row.not_assessed.empty() && row.crossing && row.response->peak &&
           std::abs(*row.response->peak / *row.crossing - 1) > visible)
         row.largest = row.response->peak;
-      row.omega = row.largest ? margins.lines[l].at(*row.largest) : omega;
-      row.margin = margin_of(row.omega, margins.lines[l], margins.speeds);
-      row.undamped = margin_of(omega, margins.lines[l], margins.speeds);
-      row.within = std::abs(row.margin) < margins.speeds.margin * (1 - rounding);
+      row.margin = margin_of(omega, margins.lines[l], margins.speeds);
+      row.at_largest =
+          row.largest ? margin_of(margins.lines[l].at(*row.largest), margins.lines[l], margins.speeds) : row.margin;
+      row.within = std::min(std::abs(row.margin), std::abs(row.at_largest)) < margins.speeds.margin * (1 - rounding);
       margins.rows.push_back(std::move(row));
     }
   const auto place = [&](const Margin& row) {
@@ -243,7 +243,8 @@ void add_tolerances(const std::vector<Tolerance>& tolerances,
   if (margins.tolerances.empty()) return;
   for (std::vector<double>& of_mode : log_factor)
     for (double& f : of_mode) f = std::exp(f);
-  for (Margin& row : margins.rows) count(log_factor[row.mode], row.omega, margins.lines[row.line], margins.speeds, row);
+  for (Margin& row : margins.rows)
+    count(log_factor[row.mode], margins.modes[row.mode].omega, margins.lines[row.line], margins.speeds, row);
 }
 
 }  // namespace kurbel

@@ -3,8 +3,8 @@
 //     margin of mode n and excitation f(Ω) = |a Ω + b| over the operating speeds Ω₁ … Ω₂:
 //     (ω_n − f)/f of the nearest f there; 0 if ω_n lies between them           (theory 12.17)
 // For an order, b = 0, this is n_c/n − 1 with the crossing speed n_c and the nearest operating speed n. ω_n follows
-// from springs and inertias alone, without slopes of motor curves and windings. Where the response is assessed and
-// damping moves its largest value away from n_c, n_c is the speed of that largest value.
+// from springs and inertias alone, without slopes of motor curves and windings. Where the response is assessed, a pair is
+// within the range also by the speed of the largest response.
 #pragma once
 
 #include <functional>
@@ -59,10 +59,9 @@ struct Margin {
   std::optional<double> crossing = {}, further_crossing = {};
   // Speed of the largest response to it, if that is assessed and visibly apart from the crossing [rad/s].
   std::optional<double> largest = {};
-  double omega = 0;     // that the margin is of: at `largest`, else ω_n [rad/s]
-  double margin = 0;    // signed; > 0: the mode lies above
-  double undamped = 0;  // the same by ω_n
-  bool within = false;  // |margin| is smaller than required
+  double margin = 0;      // signed; > 0: the mode lies above
+  double at_largest = 0;  // the same by the speed of the largest response, if that is known
+  bool within = false;    // |margin| is smaller than required
   std::optional<CrossingResponse> response = {};
   std::string not_assessed = {};  // why the response is not assessed; empty: it is
   // With tolerances: 2.5 % and 97.5 % quantiles, and the probability that the required margin is kept.

@@ -27,15 +27,15 @@ std::vector<std::size_t> shown(const Margins& m) {
   return rows;
 }
 
-// "mode 1 (19.97 Hz) and 1×, which meet at 1198 rpm, −17.6 %"; "…, with the largest response at 1150 rpm, −20.9 %
-// (undamped −17.6 %)"
+// "mode 1 (19.97 Hz) and 1×, which meet at 1198 rpm, −17.6 %"; "… (at the largest response, 1150 rpm, −20.9 %)"
 std::string pair_text(const Margins& m, const Margin& row, const SpeedUnit& unit) {
   const MarginMode& mode = m.modes[row.mode];
   std::string text = fmt::format("mode {} ({:.4g} Hz) and {}", mode.number, mode.omega / turn, m.lines[row.line].label);
   if (row.crossing) text += fmt::format(", which meet at {}", unit.text(*row.crossing, 4));
-  if (row.largest) text += fmt::format(", with the largest response at {}", unit.text(*row.largest, 4));
   text += row.margin == 0 ? ", within the range" : fmt::format(", {} %", percent(row.margin));
-  return text + (row.largest ? fmt::format(" (undamped {} %)", percent(row.undamped)) : "");
+  if (!row.largest) return text;
+  return text +
+         fmt::format(" (at the largest response, {}, {} %)", unit.text(*row.largest, 4), percent(row.at_largest));
 }
 
 // NaN if not computed.
@@ -105,10 +105,10 @@ Rows margin_table(const Margins& m, const SpeedUnit& unit) {
         .only_for_people(
             fmt::format("largest response at [{}]", unit.name),
             [&](const Margin& row) { return read_as(row.largest, {.factor = unit.of(1), .otherwise = ""}); })
-        .only_for_people("undamped margin [%]", [](const Margin& row) { return percent(row.undamped); });
+        .only_for_people("margin at it [%]", [](const Margin& row) { return percent(row.at_largest); });
   table.only_for_programs("largest_response", &Margin::largest)
       .also_in_file("rad/s")
-      .only_for_programs("undamped_margin", &Margin::undamped)
+      .only_for_programs("margin_at_largest", &Margin::at_largest)
       .also_in_file()
       .column("margin", "margin [%]", &Margin::margin, percent)
       .also_in_file()
@@ -148,7 +148,9 @@ Record operating_range(const Margins& m) {
 
 std::optional<Claim> margin_claim(const Margins& m, const SpeedUnit& unit) {
   if (!m.speeds.said || m.rows.empty()) return {};
-  const Evidence nearest_row{.value = std::abs(m.rows.front().margin), .limit = m.speeds.margin};
+  const Margin& front = m.rows.front();
+  const Evidence nearest_row{.value = std::min(std::abs(front.margin), std::abs(front.at_largest)),
+                             .limit = m.speeds.margin};
   const std::string range = range_text(m.speeds, unit), limit = fmt::format("± {:.3g} %", 100 * m.speeds.margin);
   const auto within = std::count_if(m.rows.begin(), m.rows.end(), [](const Margin& row) { return row.within; });
   const std::string nearest = pair_text(m, m.rows.front(), unit);

@@ -141,8 +141,8 @@ std::string words_of(const ModesStudy& m, const Margin& row, double speed) {
                                  m.speed_unit.text(speed, 4), 100 * row.margin, line.label,
                                  line.source.empty() ? "" : " of " + line.source, mode.number, mode.name);
   if (row.largest)
-    text += fmt::format("largest response at {}; undamped {:+.3g} %\n", m.speed_unit.text(*row.largest, 4),
-                        100 * row.undamped);
+    text +=
+        fmt::format("largest response at {}, {:+.3g} %\n", m.speed_unit.text(*row.largest, 4), 100 * row.at_largest);
   if (!row.not_assessed.empty()) return text + "response not assessed: " + row.not_assessed;
   return text + fmt::format("{} in {}\n{:.3g} % of the limit", torque_text(row.response->amplitude),
                             as_words(row.response->joint), 100 * row.response->share);
