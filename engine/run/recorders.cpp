@@ -25,7 +25,7 @@ TrajectoryRecorder::TrajectoryRecorder(std::vector<Channel> channels, double unt
 
 void TrajectoryRecorder::record(double t, const Snapshot& snapshot) {
   time_.push_back(t);
-  for (const Channel& channel : channels_) values_.push_back(channel.value(snapshot));
+  for (const Channel& channel : channels_) values_.push_back(channel.value(snapshot) + 0.0);  // no −0
 }
 
 void TrajectoryRecorder::begin(double t, std::span<const double> y, Equations& equations) {

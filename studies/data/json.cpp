@@ -40,7 +40,7 @@ class JsonWriter {
   void put(double v) {
     if (!std::isfinite(v)) return put(std::monostate());
     const std::size_t begin = text.size();
-    fmt::format_to(std::back_inserter(text), "{}", v + 0.0);  // no −0
+    fmt::format_to(std::back_inserter(text), "{}", v);
     if (text.find_first_of(".e", begin) == std::string::npos) text += ".0";
   }
   void put(const Rounded& v) {

@@ -44,11 +44,6 @@ void OperatingDiagram::become_estimate() {
 
 std::string OperatingDiagram::why_none(const std::string& link) const {
   if (working_point() || estimate) return {};
-  if (strongest.value < 0)
-    return fmt::format(
-        "the drive turns \"{}\" backwards: its mean torque is negative at every forward speed ({} at {}). Operating "
-        "points are sought at forward speeds only",
-        link, with_unit(strongest.value, "N*m", 4), speed_text(speed_unit, strongest_at));
   const auto least =
       std::max_element(curve.begin(), curve.end(), [](const auto& a, const auto& b) { return a.net() < b.net(); });
   if (std::abs(least->net()) <= balance_error)

@@ -135,6 +135,9 @@ class Study {
     }
     lossy_ = machine_with_losses(build_network(scene_), scene_, effects_.back());
     out_.diagram = operating_diagram(*machine, sense(), lossy_);
+    // The drive may turn the machine the other way than it starts.
+    if (!out_.diagram->working_point() && out_.diagram->strongest.value < 0 && !options_.holds_speed())
+      out_.diagram = operating_diagram(*machine, -sense(), lossy_);
     log(fmt::format("operating points: {} of {} speeds scanned", out_.diagram->points.size(),
                     out_.diagram->curve.size()));
     const bool without_losses = out_.diagram->estimate;

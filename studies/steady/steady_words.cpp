@@ -164,11 +164,11 @@ std::vector<std::string> words_of_diagram(const SteadyStudy& s) {
   // A mean that suffices does not carry the machine over every peak: no margin of what stalls.
   const bool runs = std::any_of(s.cycles.begin(), s.cycles.end(), [](const SteadyCycle& c) { return c.found; });
   if (const OperatingPoint* p = d.working_point(); runs && p && d.margin(*p).value > 1 + 1e-6)
-    words.push_back(headline(
-        fmt::format("Margin: the drive's mean torque is at most {} (at {}), {}", with_unit(d.strongest.value, "N*m"),
-                    std::abs(d.strongest_at) < 1e-4 * p->speed.value ? "standstill" : d.speed_unit.text(d.strongest_at),
-                    std::isfinite(d.margin(*p).value) ? with_error(d.margin(*p), "") + " times what the load needs"
-                                                      : "and the loads' mean torque is zero")));
+    words.push_back(headline(fmt::format(
+        "Margin: the drive's mean torque is at most {} (at {}), {}", with_unit(d.strongest.value, "N*m"),
+        std::abs(d.strongest_at) < 1e-4 * std::abs(p->speed.value) ? "standstill" : d.speed_unit.text(d.strongest_at),
+        std::isfinite(d.margin(*p).value) ? with_error(d.margin(*p), "") + " times what the load needs"
+                                          : "and the loads' mean torque is zero")));
   if (const std::string none = d.why_none(s.link); !none.empty() && d.uses_speed) words.push_back(none);
   return words;
 }

@@ -530,6 +530,11 @@ TEST(Linkage, GivenLengthsMoveTheSketch) {
   const LinkageFaults open = take_lengths(of.s, {{1, 3, 500, "AB"}});
   ASSERT_EQ(open.size(), 1u);
   EXPECT_NE(open[0].text.find("cannot be closed"), std::string::npos) << open[0].text;
+  // Of the thigh Z B D a length is given, two others stay.
+  const LinkageFaults kept = take_lengths(of.s, {{2, 3, 900, "ZB"}});
+  ASSERT_EQ(kept.size(), 1u);
+  EXPECT_NE(kept[0].text.find(" as drawn"), std::string::npos) << kept[0].text;
+  for (const char* side : {"ZD", "BD"}) EXPECT_NE(kept[0].text.find(side), std::string::npos) << kept[0].text;
 }
 
 // Of the frame a length moves the points that it ends in, and no other.

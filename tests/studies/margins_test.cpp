@@ -47,6 +47,22 @@ TEST(Margins, SpeedsAreThoseOfTheLink) {
   EXPECT_EQ(speeds.slowest, speeds.fastest);
 }
 
+// A shunt motor's data have a speed without load, at which nothing is driven: it is no rated speed.
+TEST(Margins, OnlyANameplateHasARatedSpeed) {
+  const Scene scene = test::scene_from(R"(
+    line = ["motor", "gear", "crank"]
+    motor = { kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "150 rad/s", inertia = "0.02 kg*m2" }
+    gear = { kind = "gearbox", stages = [{ teeth = [20, 60] }] }
+    crank = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia = "0.1 kg*m2", slider_mass = "1 kg" }
+  )");
+  const auto model = compile(scene, scene.effects);
+  const OperatingSpeeds steady = operating_speeds(*model, {}, 35.0), unknown = operating_speeds(*model, {}, {});
+  EXPECT_EQ(steady.words, "of the steady motion");
+  EXPECT_EQ(steady.fastest, 35.0);
+  EXPECT_EQ(unknown.words, "reference speed of motor");
+  EXPECT_NEAR(unknown.fastest, 50, 1e-9);
+}
+
 // Below its breakdown the motor does not stay; the shaft crosses there all the same: ω = √(k (1/J₁ + 1/J₂)).
 TEST(Margins, DoNotDependOnTheSlopeOfAMotorsCurve) {
   const double omega = std::sqrt(1400 * (1 / 0.1 + 1 / 0.8));

@@ -464,6 +464,14 @@ TEST(OperatingPoints, OfTheOtherDirectionAreTheSameMirrored) {
     EXPECT_NEAR(d.points[0].torque.value, 15, 1e-9);
     EXPECT_TRUE(d.points[0].stable());
   }
+  // Started against its drive: the diagram is of the direction in which the drive turns it.
+  for (const int sense : {1, -1}) {
+    const SteadyStudy study =
+        steady(scene_from(machine(sense) + fmt::format("run = {{ start = {{ speed = \"{} rad/s\" }} }}\n", -5 * sense)),
+               {Effects{}}, {});
+    ASSERT_TRUE(study.diagram && study.diagram->working_point()) << sense;
+    EXPECT_NEAR(study.diagram->working_point()->speed.value, 30 * sense, 1e-9);
+  }
 }
 
 // --- starts ---

@@ -32,7 +32,7 @@ TEST(Values, NumbersComeBackToTheLastBit) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     ASSERT_TRUE(read[i].is_number_float()) << read[i];
     EXPECT_EQ(read[i].get<double>(), all[i]);
-    EXPECT_EQ(std::signbit(read[i].get<double>()), std::signbit(all[i] + 0.0));
+    EXPECT_EQ(std::signbit(read[i].get<double>()), std::signbit(all[i]));
   }
 }
 
