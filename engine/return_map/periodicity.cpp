@@ -79,12 +79,14 @@ Periodicity periodicity_of(const Model& m) {
   }
   result.angle_matters = !angles.empty();
   result.angle = angles.empty() ? turn : common_multiple(angles, "rad");
+  result.clocked = !times.empty();
   if (const int node = prescribed_node(m); node >= 0) {
     const PrescribedSpeed& given = m.network.prescribed[at(m.network.nodes[at(node)].prescribed)];
     const std::string& name = m.network.nodes[at(node)].component;
     const double link_speed = std::abs(given.settled_speed() / m.node_ratio[at(node)]);
     if (given.amplitude != 0) times.push_back({1 / std::abs(given.frequency), name});
     if (given.period() > 0) times.push_back({given.period(), name});
+    result.clocked = !times.empty();
     // In the mean nothing turns at a speed of 0: what reads an angle sees one place of its cycle.
     if (link_speed > 0 && (result.angle_matters || times.empty())) times.push_back({result.angle / link_speed, name});
     result.settled_from = std::max(result.settled_from, given.settled_from());
@@ -92,6 +94,13 @@ Periodicity periodicity_of(const Model& m) {
   result.by_time = !times.empty();
   if (result.by_time) result.time = common_multiple(times, "s");
   return result;
+}
+
+double clock_of(const Model& m) try {
+  const Periodicity p = periodicity_of(m);
+  return p.clocked ? p.time : 0;
+} catch (const std::invalid_argument&) {
+  return 0;
 }
 
 }  // namespace kurbel

@@ -11,11 +11,16 @@ struct Periodicity {
   bool angle_matters = false;  // some law depends on an angle
   bool by_time = false;        // some law depends on time, or a speed is prescribed
   double time = 0;             // common period of the laws over time [s]
+  bool clocked = false;        // some law over time repeats, besides the turns of a prescribed speed
   double settled_from = 0;     // time from which non-periodic laws are constant [s]
 };
 
 // Throws std::invalid_argument if the periods are not commensurable.
 Periodicity periodicity_of(const Model& model);
+
+// Common period of the laws over time and of a sequence that repeats by the clock [s]; 0: there are none, or they have no common
+// period. A speed prescribed as a constant is none.
+double clock_of(const Model& model);
 
 // The node with prescribed speed, except the frame; −1: none. Throws std::invalid_argument if there are
 // two.

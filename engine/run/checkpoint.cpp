@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-const char* const kind = "kurbel checkpoint 6";
+const char* const kind = "kurbel checkpoint 7";
 
 std::vector<std::string> names_of(const Equations& equations) {
   std::vector<std::string> names;

@@ -1,6 +1,8 @@
 // recorders.cpp — records of a run: trajectory, extremes, cycles, energy balance.
 #include "engine/run/recorders.h"
 
+#include <functional>
+
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
@@ -231,28 +233,40 @@ double link_speed(const Model& m, const Snapshot& s) {
 
 }  // namespace
 
+void CycleRecord::append(const CycleRecord& next) {
+  const auto add = [](std::vector<double>& sum, const std::vector<double>& more) {
+    std::transform(sum.begin(), sum.end(), more.begin(), sum.begin(), std::plus());
+  };
+  add(work, next.work), add(of_motors, next.of_motors);
+  end = next.end, energy_after = next.energy_after, turned += next.turned;
+  omega_max = std::max(omega_max, next.omega_max), omega_min = std::min(omega_min, next.omega_min);
+}
+
 void CycleRecorder::remember(Tape& tape) {
-  tape(cycles_, low_, high_, sense_, open_, begin_, max_, min_, work_at_begin_, motors_at_begin_, energy_at_begin_);
+  tape(cycles_, low_, high_, sense_, open_, begin_, max_, min_, work_at_begin_, motors_at_begin_, energy_at_begin_,
+       angle_at_begin_);
   goes_on_ = tape.reading();
 }
 
 void CycleRecorder::begin(double t, std::span<const double> y, Equations& equations) {
   const Model& m = equations.model();
   cycle_ = m.cycle;
-  if (cycle_ == 0 || goes_on_) return;
+  if (idle() || goes_on_) return;
   const Snapshot& s = equations.snapshot(t, y);
   const double angle = equations.angle_with_turns(at(m.reduction_angle), y);
-  const double nearest = cycle_ * std::round(angle / cycle_);
-  if (std::abs(nearest - angle) < 1e-9) {  // starts on the boundary
+  const double place = period_ > 0 ? t : angle, length = period_ > 0 ? period_ : cycle_;
+  const double nearest = length * std::round(place / length);
+  if (std::abs(nearest - place) < 1e-9) {  // starts on the boundary
     open_ = true;
     begin_ = t;
+    angle_at_begin_ = angle;
     work_at_begin_ = works(m, s);
     motors_at_begin_ = motor_integrals(m, s);
-    low_ = nearest - cycle_;
-    high_ = nearest + cycle_;
+    low_ = nearest - length;
+    high_ = nearest + length;
   } else {
-    low_ = cycle_ * std::floor(angle / cycle_);
-    high_ = low_ + cycle_;
+    low_ = length * std::floor(place / length);
+    high_ = low_ + length;
   }
   max_ = min_ = link_speed(m, s);
   if (open_) energy_at_begin_ = energy_of(equations, t, y);
@@ -270,8 +284,13 @@ void CycleRecorder::pass(double t, int sense, StepView& view) {
   const double omega = link_speed(m, s);
   see_speed(omega);
   const double energy = energy_of(view.equations(), t, view.at(t));
+  const double angle = view.equations().angle_with_turns(at(m.reduction_angle), view.at(t));
   if (open_ && (sense_ == 0 || sense == sense_)) {
-    CycleRecord record{begin_, t, max_, min_, work, integrals, work_at_begin_, energy_at_begin_, energy};
+    CycleRecord record{begin_,         t,
+                       max_,           min_,
+                       work,           integrals,
+                       work_at_begin_, energy_at_begin_,
+                       energy,         period_ > 0 ? angle - angle_at_begin_ : sense * cycle_};
     for (std::size_t k = 0; k < work.size(); ++k) record.work[k] -= work_at_begin_[k];
     for (std::size_t k = 0; k < integrals.size(); ++k) record.of_motors[k] -= motors_at_begin_[k];
     cycles_.push_back(std::move(record));
@@ -282,14 +301,15 @@ void CycleRecorder::pass(double t, int sense, StepView& view) {
   work_at_begin_ = std::move(work);
   motors_at_begin_ = std::move(integrals);
   energy_at_begin_ = energy;
+  angle_at_begin_ = angle;
   sense_ = sense;
   const double here = sense > 0 ? high_ : low_;
   low_ = sense > 0 ? here : here - cycle_;
-  high_ = low_ + cycle_;
+  high_ = period_ > 0 ? period_ * (std::round(t / period_) + 1) : low_ + cycle_;
 }
 
 void CycleRecorder::step(StepView& view) {
-  if (cycle_ == 0) return;
+  if (idle()) return;
   Equations& equations = view.equations();
   const Model& m = equations.model();
   const std::size_t tracked = at(m.reduction_angle);
@@ -333,6 +353,12 @@ void CycleRecorder::step(StepView& view) {
     }
     from = t;
   };
+  while (period_ > 0 && high_ <= view.t()) {
+    const double border = high_;
+    extreme_until(border);
+    pass(border, 1, view);
+  }
+  if (period_ > 0) return extreme_until(view.t());
   // The multiple passed last is passed again, backwards, only after a reversal.
   constexpr double left_behind = 1e-9;
   const auto beyond = [&](double t, int sense) {

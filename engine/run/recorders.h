@@ -112,7 +112,11 @@ class ExtremeRecorder final : public Observer {
   std::array<std::vector<double>, 4> beside_;
 };
 
-// One cycle of the reduction link.
+// A motion that repeats after more cycles of the link is not recognised: its period would need 3 · 12 of them to show, and
+// 12 contains every second, third, fourth and sixth.
+inline constexpr int most_cycles_of_a_period = 12;
+
+// One cycle of the reduction link, several in a row, or a period of time.
 struct CycleRecord {
   double begin = 0, end = 0;             // [s]
   double omega_max = 0, omega_min = 0;   // of the reduction link [rad/s]
@@ -121,20 +125,22 @@ struct CycleRecord {
   std::vector<double> work_before = {};  // per account, from the start to the cycle's begin [J]
   double energy_before = 0;              // kinetic and stored, at its begin [J]
   double energy_after = 0;               // and at its end
+  double turned = 0;                     // by the link [rad]
   double mid_speed() const { return 0.5 * (omega_max + omega_min); }
   // δ (theory 2.6) of a periodic motion, for both directions
   double fluctuation() const { return (omega_max - omega_min) / std::abs(mid_speed()); }
-  // `angle` of a cycle over its time (theory 2.7)
-  double mean_speed(double angle) const { return std::copysign(angle / (end - begin), mid_speed()); }
+  double mean_speed() const { return turned / (end - begin); }  // theory 2.7
+  void append(const CycleRecord& next);                         // which begins where this ends
   void remember(Tape& tape) {
-    tape(begin, end, omega_max, omega_min, work, of_motors, work_before, energy_before, energy_after);
+    tape(begin, end, omega_max, omega_min, work, of_motors, work_before, energy_before, energy_after, turned);
   }
 };
 
 // A cycle lies between two successive multiples of its angle passed in the same direction; if the link reverses, a new
-// cycle begins.
+// cycle begins. Or, with a `period` [s], between two multiples of that.
 class CycleRecorder final : public Observer {
  public:
+  explicit CycleRecorder(double period = 0) : period_(period) {}
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
   void remember(Tape& tape) override;
@@ -144,12 +150,14 @@ class CycleRecorder final : public Observer {
  private:
   void see_speed(double omega);
   void pass(double t, int sense, StepView& view);
+  bool idle() const { return cycle_ == 0 && period_ == 0; }
   std::vector<CycleRecord> cycles_;
   bool goes_on_ = false;
   double cycle_ = 0, low_ = 0, high_ = 0;  // the multiples below and above, including the last one passed [rad]
   int sense_ = 0;                          // direction of that passage; 0: none yet
   bool open_ = false;                      // a cycle began at a multiple of its angle
-  double begin_ = 0, max_ = 0, min_ = 0;
+  double period_ = 0;                      // of time [s]; 0: cycles of the angle
+  double begin_ = 0, max_ = 0, min_ = 0, angle_at_begin_ = 0;
   std::vector<double> work_at_begin_, motors_at_begin_;
   double energy_at_begin_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "drivetrain/shared/rating_keys.h"
 #include "engine/numerics/index.h"
@@ -80,6 +81,8 @@ class RunWords {
     std::string text =
         fmt::format("\"{}\" runs steadily at {}", link(), speed_and_sense(mean ? mean->value : p_.steady_speed));
     if (p_.run_up_end) text += fmt::format(" from {} on", seconds(*p_.run_up_end));
+    const std::string period = r_.model ? period_in_words(p_, r_.model->cycle) : "";
+    if (!period.empty()) text += fmt::format(", where its motion repeats every {}", period);
     if (p_.run_down_begin) text += fmt::format(", runs down from {}", seconds(*p_.run_down_begin));
     if (p_.standstill) text += fmt::format(" and rests at {}{}", seconds(*p_.standstill), held());
     Evidence evidence = mean ? of(*mean) : Evidence{.value = p_.steady_speed, .unit = "rad/s"};
@@ -166,6 +169,14 @@ void overloaded_motors(const Result& r, Claims& claims) {
 }
 
 }  // namespace
+
+std::string period_in_words(const Periods& p, double cycle) {
+  if (p.time > 0) return fmt::format("{:.6g} s", p.cycles * p.time);
+  if (p.cycles == 1) return {};
+  const double turns = p.cycles * cycle / (2 * std::numbers::pi);
+  const bool whole = std::abs(turns - std::round(turns)) < 1e-9;
+  return whole ? fmt::format("{:.0f} turns", turns) : fmt::format("{} cycles", p.cycles);
+}
 
 std::optional<Claim> overload_claim(const Model& model, const std::string& motor, const Estimate& use, bool by_torque,
                                     const std::string& of) {

@@ -10,6 +10,9 @@
 
 namespace kurbel {
 
+// How long a period of the steady motion is, `cycle` [rad] of the link: "3 turns", "2 cycles", "1.1 s"; empty: one cycle.
+std::string period_in_words(const Periods& periods, double cycle);
+
 // Does it run, and is that confirmed? Faults of the motion (Result::claims), otherwise its final motion in a
 // sentence. `whose`: prefix where models are compared: "elastic model: ".
 Claims run_claims(const Result& result, const std::string& whose = {});

@@ -40,6 +40,9 @@ inline constexpr PageWord of_pages[] = {
      "of the motion that a run or a steady cycle gives, not of a prescribed one"},
     {"measured", "run, steady, fit", "of a record from a test, as the file has it"},
     {"time; time [s]", of_all, "simulated time since the start of the run; of a processor it is in ms"},
+    {"first at; last at; times; mean interval", "run, compare",
+     "of events of one kind in a run: when the first and the last of them was, how many there were, and the mean time from "
+     "one to the next"},
     {"at; at [s]; at [rpm]; at [mm]", of_all,
      "where the value beside it occurs: time, angle, speed, or distance along a guide, by the unit"},
     {"from; to; range from", of_all,

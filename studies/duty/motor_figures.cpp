@@ -4,6 +4,7 @@
 #include "drivetrain/induction/induction_law.h"
 #include "drivetrain/motors/motors.h"
 #include "engine/numerics/index.h"
+#include "engine/return_map/periodicity.h"
 
 namespace kurbel {
 namespace {
@@ -80,14 +81,14 @@ class OneMotor {
       if (!(*rated > 0)) return {};
       // Without a cycle, in steady motion, by the final torque: all that varies has decayed.
       if (m_.cycle == 0 && !run_->last && run_->steady) return Found{std::abs(torque_at_end()) / *rated, 1, run_->end};
-      const CycleRecord* cycle = m_.cycle > 0 ? cycle_that_heats(*run_, i_) : nullptr;
+      const CycleRecord* cycle = cycle_that_heats(*run_, i_);
       if (!cycle) return {};
       const double rms = root_mean_square(cycle->of_motors[2 * i_ + 1], cycle->end - cycle->begin);
       return Found{rms / *rated, 1, cycle->end};
     });
   }
   void cycle_power() {
-    if (m_.cycle == 0) return;
+    if (!has_cycle()) return;
     report("cycle_motor_power", [&]() -> std::optional<Found> {
       const CycleRecord* last = run_->last;
       if (!last) return {};
@@ -97,6 +98,7 @@ class OneMotor {
   }
 
  private:
+  bool has_cycle() const { return m_.cycle > 0 || clock_of(m_) > 0; }
   template <class Find>
   void report(const char* words, const Find& find) {
     report_(words, motor_.component, find);
@@ -138,7 +140,7 @@ class OneMotor {
       report("motor_rms_current", [&] { return Found{root_mean_square(m.stator_square(), run_->duration), m.usual}; });
       report("motor_slip_heat", [&] { return heat(windings->rotor_resistance, m.rotor_square()); });
       report("motor_stator_heat", [&] { return heat(windings->stator_resistance, m.stator_square()); });
-      if (m_.cycle > 0)
+      if (has_cycle())
         report("current_use", [&]() -> std::optional<Found> {
           const CycleRecord* cycle = cycle_that_heats(*run_, i_);
           if (!cycle || !(windings->rated_current > 0)) return {};

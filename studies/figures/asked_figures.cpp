@@ -147,7 +147,8 @@ std::vector<std::string> figures_not_given(const Model& model, const std::vector
   return notes;
 }
 
-AskedRecorder::AskedRecorder(const Model& model, const CycleRecorder* cycles) : cycles_(cycles) {
+AskedRecorder::AskedRecorder(const Model& model, const CycleRecorder* cycles, const CycleRecorder* by_time)
+    : cycles_{cycles, by_time} {
   for (AskedFigure& asked : asked_figures(model))
     if (cycles || asked.window == Over::steady_cycle) {
       const Meter meter{asked.functional, asked.level};
@@ -157,7 +158,7 @@ AskedRecorder::AskedRecorder(const Model& model, const CycleRecorder* cycles) : 
 
 void AskedRecorder::begin(double t, std::span<const double>, Equations&) {
   for (Asked& asked : asked_)
-    if (asked.window == Over::run || is_period(asked.window) || !cycles_) asked.open = true, asked.now = {t, t};
+    if (asked.window == Over::run || is_period(asked.window) || !cycles_.front()) asked.open = true, asked.now = {t, t};
 }
 
 void AskedRecorder::step(StepView& view) {
@@ -191,11 +192,12 @@ void AskedRecorder::follow_sequence(const Equations& equations, double t) {
 // Within this step, ascending; the cycle that begins with it has begun.
 std::vector<double> AskedRecorder::ends_of_cycles(const StepView& view) {
   std::vector<double> ends;
-  if (!cycles_) return ends;
-  const std::vector<CycleRecord>& cycles = cycles_->cycles();
-  for (; seen_cycles_ < cycles.size(); ++seen_cycles_)
-    for (const double end : {cycles[seen_cycles_].begin, cycles[seen_cycles_].end}) ends.push_back(end);
-  ends.push_back(cycles_->begin_of_current());
+  for (std::size_t i = 0; i < cycles_.size() && cycles_[i]; ++i) {
+    const std::vector<CycleRecord>& cycles = cycles_[i]->cycles();
+    for (std::size_t& seen = seen_cycles_[i]; seen < cycles.size(); ++seen)
+      for (const double end : {cycles[seen].begin, cycles[seen].end}) ends.push_back(end);
+    ends.push_back(cycles_[i]->begin_of_current());
+  }
   std::erase_if(ends, [&](double end) { return end < view.t_previous() || end > view.t(); });
   std::ranges::sort(ends);
   ends.erase(std::ranges::unique(ends).begin(), ends.end());
@@ -326,15 +328,20 @@ AskedRecorder::Gauge AskedRecorder::between(const Asked& asked, double begin, do
   return all;
 }
 
-const AskedRecorder::Gauge* AskedRecorder::gauge_of(const Asked& asked, double cycle_end) const {
-  const Gauge* gauge = &asked.now;
-  if (asked.window == Over::steady_cycle && cycles_) {
-    const auto found = std::ranges::find(asked.whole, cycle_end, &Gauge::end);
-    gauge = found == asked.whole.end() ? nullptr : &*found;
-  } else if (!asked.whole.empty()) {
-    gauge = &asked.whole.back();
+std::optional<AskedRecorder::Gauge> AskedRecorder::gauge_of(const Asked& asked, const CycleRecord* cycle) const {
+  std::optional<Gauge> gauge;
+  if (asked.window != Over::steady_cycle || !cycles_.front()) {
+    gauge = asked.whole.empty() ? asked.now : asked.whole.back();
+  } else if (cycle) {
+    Meter meter = asked.meter;
+    for (const Gauge& part : asked.whole) {
+      if (part.begin < cycle->begin || part.end > cycle->end) continue;
+      if (!gauge) gauge.emplace(part.begin, part.end);
+      gauge->end = part.end, gauge->sum += part.sum;
+      meter.add_extreme(*gauge, *part.extreme);
+    }
   }
-  return gauge && gauge->end > gauge->begin ? gauge : nullptr;
+  return gauge && gauge->end > gauge->begin ? gauge : std::nullopt;
 }
 
 void AskedRecorder::give(const Asked& asked, const Gauge& gauge, double resolution, FigureReporter& report) {
@@ -346,11 +353,12 @@ void AskedRecorder::give(const Asked& asked, const Gauge& gauge, double resoluti
   figure.scale = meter.functional == Functional::above ? gauge.end - gauge.begin : meter.size;
 }
 
-void AskedRecorder::report(double cycle_end, std::span<const PeriodOfRun> periods, FigureReporter& report) const {
+void AskedRecorder::report(const CycleRecord* cycle, std::span<const PeriodOfRun> periods,
+                           FigureReporter& report) const {
   for (const Asked& asked : asked_) {
     if (report.find(asked.figure.name)) continue;
     if (!is_period(asked.window)) {
-      if (const Gauge* const gauge = gauge_of(asked, cycle_end)) give(asked, *gauge, 0, report);
+      if (const std::optional<Gauge> gauge = gauge_of(asked, cycle)) give(asked, *gauge, 0, report);
       continue;
     }
     const auto period = std::ranges::find(periods, asked.window, &PeriodOfRun::window);

@@ -46,13 +46,14 @@ struct PeriodOfRun {
 
 class AskedRecorder final : public Observer {
  public:
-  // `cycles` observes the same run, before this; null: the run is one steady cycle, and only figures of it are given.
-  explicit AskedRecorder(const Model& model, const CycleRecorder* cycles = nullptr);
+  // `cycles` observe the same run, before this; null: the run is one steady cycle, and only figures of it are given.
+  explicit AskedRecorder(const Model& model, const CycleRecorder* cycles = nullptr,
+                         const CycleRecorder* by_time = nullptr);
   bool empty() const { return asked_.empty(); }
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
-  // Figures not reported yet, of windows that the run came to; of all cycles the one with this end.
-  void report(double cycle_end, std::span<const PeriodOfRun> periods, FigureReporter& report) const;
+  // Figures not reported yet, of windows that the run came to; of all cycles the given ones, or none.
+  void report(const CycleRecord* cycle, std::span<const PeriodOfRun> periods, FigureReporter& report) const;
 
  private:
   // What is known of one window.
@@ -85,11 +86,11 @@ class AskedRecorder final : public Observer {
     Meter meter = {};
     bool open = false;                    // its window is under way
     Gauge now = {};                       // in it
-    std::vector<Gauge> whole = {};        // in windows gone through: in all cycles, in the last step
+    std::vector<Gauge> whole = {};        // in windows gone through: between all borders of cycles, in the last step
     std::vector<Stretch> stretches = {};  // of the whole run, for its periods
   };
   static Gauge between(const Asked& asked, double begin, double end);
-  const Gauge* gauge_of(const Asked& asked, double cycle_end) const;
+  std::optional<Gauge> gauge_of(const Asked& asked, const CycleRecord* cycle) const;
   static void give(const Asked& asked, const Gauge& gauge, double resolution, FigureReporter& report);
   void follow_sequence(const Equations& equations, double t);
   std::vector<double> ends_of_cycles(const StepView& view);
@@ -98,8 +99,9 @@ class AskedRecorder final : public Observer {
   void take_half(StepView& view, double from, double to);
 
   std::vector<Asked> asked_;
-  const CycleRecorder* cycles_;
-  std::size_t seen_cycles_ = 0, next_step_ = 0;
+  std::array<const CycleRecorder*, 2> cycles_;
+  std::array<std::size_t, 2> seen_cycles_ = {};
+  std::size_t next_step_ = 0;
   double step_began_ = -HUGE_VAL;  // that of the sequence under way [s]; infinite: not looked at yet
 };
 

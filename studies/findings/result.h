@@ -103,6 +103,8 @@ struct Periods {
   bool steady = false;                                      // deviation from the limit of the mid speed < 0.1 %
   std::optional<double> remaining;                          // to the limit [rad/s]; empty: no limit is recognisable
   bool without_limit = false;  // the speed keeps changing, without slowing from cycle to cycle
+  int cycles = 1;              // after which steady motion repeats, or periods of `time`
+  double time = 0;             // [s]: what repeats are periods of the laws over time, not of the angle; 0: cycles
   std::string verdict;         // why steady or not, in words
 };
 
@@ -139,7 +141,7 @@ struct Result {
   // has it; none at all: not measured.
   std::vector<std::optional<double>> event_errors;
   Periods periods;
-  std::vector<CycleRecord> cycles;
+  std::vector<CycleRecord> cycles;  // those by which steadiness was judged: single cycles, or periods of time
   EnergyBalance energy;
   RunStatistics statistics;
   double cpu_total = 0;  // of all runs, errors included [s]

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/numerics/index.h"
 #include "engine/numerics/roots.h"
 #include "studies/findings/thin.h"
 
@@ -136,8 +137,21 @@ void TraceRecorder::hand_over() {
   times_.clear(), angles_.clear();
 }
 
-std::shared_ptr<const Traces> TraceRecorder::traces() {
+std::shared_ptr<const Traces> TraceRecorder::traces(int cycles) {
   hand_over();
+  std::deque<CycleTraces>& last = traces_->last_cycles;
+  const std::size_t n = at(cycles), kept = n > 1 && last.size() >= n ? n : std::min<std::size_t>(2, last.size());
+  last.erase(last.begin(), last.end() - static_cast<std::ptrdiff_t>(kept));
+  for (; kept == n && last.size() > 1 && n > 1; last.erase(last.begin() + 1)) {
+    const double turned = model_->cycle * static_cast<double>(n + 1 - last.size());
+    last[0].end = last[1].end;
+    for (std::size_t k = 0; k < last[0].traces.size(); ++k) {
+      Trace &all = last[0].traces[k], &next = last[1].traces[k];
+      for (double& x : next.x) x += turned;
+      all.x.insert(all.x.end(), next.x.begin(), next.x.end());
+      all.y.insert(all.y.end(), next.y.begin(), next.y.end());
+    }
+  }
   return traces_;
 }
 
@@ -147,7 +161,7 @@ void TraceRecorder::keep_open_cycle() {
   if (open_driven_ && !any_driven_) traces_->last_cycles.clear();
   any_driven_ = any_driven_ || open_driven_;
   traces_->last_cycles.push_back(std::move(open_));
-  if (traces_->last_cycles.size() > 2) traces_->last_cycles.pop_front();
+  if (traces_->last_cycles.size() > at(most_cycles_of_a_period)) traces_->last_cycles.pop_front();
 }
 
 void TraceRecorder::begin_cycle(double t, bool driven) {

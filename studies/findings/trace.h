@@ -35,7 +35,8 @@ struct CycleTraces {
 // Data of a run for plots, independent of the integrator.
 struct Traces {
   std::vector<Trace> over_time;
-  std::deque<CycleTraces> last_cycles;  // whole ones, at most two, the latest last; driven ones, if any
+  std::deque<CycleTraces>
+      last_cycles;  // whole ones, at most two, the latest last; driven ones, if any; or one period of several
   const Trace* find(const std::string& name) const;
   static std::string node_key(int node) { return "twist_to_link." + std::to_string(node); }
 };
@@ -50,8 +51,8 @@ class TraceRecorder final : public Observer {
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
 
-  // After the run: what was recorded until now.
-  std::shared_ptr<const Traces> traces();
+  // After the run: what was recorded until now; the last so many cycles as one.
+  std::shared_ptr<const Traces> traces(int cycles = 1);
 
  private:
   void look(double t, std::span<const double> y, Equations& equations);  // now_ and angle_

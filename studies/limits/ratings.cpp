@@ -153,26 +153,29 @@ class Rater {
                                 std::floor(100 / times))};
       });
     const Claim* slips = slips_closed();
-    if (const std::string kind = result_.model->network.kind_of(component_);
-        slips && (kind == "clutch" || kind == "torque limiter"))
-      gives_way("holding torque: |τ| ≤ M_s while it is closed", capacity(), *slips);
+    if (capacity() > 0) holding(slips);
     if (!rating.engagement && slips)
       out_.push_back(not_assessed(component_, "heat of slipping: W ≤ W_allowable", std::nan(""), "J", load_case::run,
                                   "it slips while closed, and states no allowable_heat"));
+  }
+  void holding(const Claim* slips) {  // what a clutch or limiter has transmitted while it was closed and did not slip
+    constexpr const char* holds = "holding torque: |τ| ≤ M_s while it is closed";
+    if (slips) return gives_way(holds, capacity(), *slips);
+    leave_to_run(holds, capacity(), "N*m");
+    const Figure *held = found("held_torque." + component_), *reserve = found("torque_reserve." + component_);
+    if (held && reserve) add(holds, abs(*held), held->at, capacity(), "N*m", [](double) { return Mend{}; });
   }
   void gives_way(const char* requirement, double limit, const Claim& slips) {
     Verdict v{{limit, 0}, component_, requirement, limit, "N*m", ""};
     v.gives_way = true, v.at = slips.evidence.at, v.load_case = load_case_of(v.at);
     out_.push_back(std::move(v));
   }
-  // M_s [N·m].
-  double capacity() const {
+  double capacity() const {  // M_s [N·m]; 0: of a brake
     for (const Network::Joint& joint : result_.model->network.joints)
       if (joint.component == component_ && joint.element) return joint.element->capacity;
     return 0;
   }
-  // Null: it holds while closed.
-  const Claim* slips_closed() const {
+  const Claim* slips_closed() const {  // null: it holds while closed
     const auto found = std::find_if(result_.claims.begin(), result_.claims.end(), [&](const Claim& c) {
       return c.of == component_ &&
              (c.predicate == Predicate::clutch_slips_closed || c.predicate == Predicate::limiter_slips ||
@@ -376,10 +379,8 @@ std::vector<ExtremeOf> shaft_torques_of(const Model& model) {
     if (rates_cycle(shaft.rating)) rated.push_back(component);
   if (rated.empty()) return wanted;
   for (const ExtremeOf& peak : extremes_of(model)) {
-    if (peak.name.what != quantities::peak_torque) continue;
-    if (std::none_of(rated.begin(), rated.end(),
-                     [&](const std::string& shaft) { return is_joint_of(peak.name.of, shaft); }))
-      continue;
+    const auto is_rated = [&](const std::string& shaft) { return is_joint_of(peak.name.of, shaft); };
+    if (peak.name.what != quantities::peak_torque || std::none_of(rated.begin(), rated.end(), is_rated)) continue;
     for (const auto& [words, functional] :
          {std::pair("greatest_torque", Functional::greatest), {"least_torque", Functional::least}}) {
       wanted.push_back(peak);

@@ -55,21 +55,6 @@ std::vector<Intake> intakes_of(const Model& model) {
   return list;
 }
 
-struct FlywheelOnLink {
-  std::string name;
-  double inertia = 0, ratio = 1;  // [kg·m²]; of its speed to the link's
-};
-std::vector<FlywheelOnLink> flywheels_on_link(const Model& model) {
-  std::vector<FlywheelOnLink> list;
-  const std::size_t link = at(model.reduction_node);
-  for (const auto& [component, flywheel] : model.network.data.all<Flywheel>()) {
-    const std::size_t node = at(model.network.ports.at(component).out);
-    if (model.shaft_of_node[node] == model.shaft_of_node[link])
-      list.push_back({component, flywheel.inertia, model.gain_of_node[node] / model.gain_of_node[link]});
-  }
-  return list;
-}
-
 // Angle and speed of a node's shaft, as they are at the end.
 Found angle_of(const Model& m, const Snapshot& s, int node) {
   return {s.node_angle[node], std::max(1.0, m.scale_ratio[at(node)])};
@@ -90,7 +75,9 @@ class RunFigures {
   RunFigures(const Model& model, std::vector<Figure>& list) : model_(model), report_(list, true) {}
 
   void collect() {
-    run_->periods = find_periods(model_, run_->cycles.cycles(), *run_->speed, run_->outcome, tolerance_);
+    const LinkHistory link{begin(), run_->cycles.cycles(), run_->by_time.cycles(), *run_->speed, run_->outcome};
+    const Periods& p = run_->periods = find_periods(model_, link, tolerance_);
+    cycles_ = in_periods(p.time > 0 ? link.by_time : link.cycles, p.cycles, p.cycles > 1 ? driven_until() : HUGE_VAL);
     find_last_cycle();
     add_extremes();
     add_rms();
@@ -109,7 +96,7 @@ class RunFigures {
     FlywheelFalls::report(model_, run_->falls.get(), energy_scale(), report_);
     report_reserves(model_, report_);
     add_slipped_angles();
-    if (run_->asked) run_->asked->report(last_ ? last_->end : 0, periods_of_run(), report_);
+    if (run_->asked) run_->asked->report(last_, periods_of_run(), report_);
   }
   // In a separate order.
   void list() {
@@ -231,7 +218,7 @@ class RunFigures {
   bool comes_again(const CycleRecord& last) const {
     constexpr double alike = 1e-3;  // of the mid speed
     const CycleRecord* here = &last;
-    if (here - run_->cycles.cycles().data() < 2) return false;
+    if (here - cycles_.data() < 2) return false;
     return std::all_of(here - 2, here, [&](const CycleRecord& c) {
       return std::max(std::abs(c.omega_max - last.omega_max), std::abs(c.omega_min - last.omega_min)) <=
              alike * std::abs(last.mid_speed());
@@ -239,17 +226,18 @@ class RunFigures {
   }
   std::vector<const CycleRecord*> all_that_come_again() const {
     std::vector<const CycleRecord*> list;
-    for (const CycleRecord& c : run_->cycles.cycles())
+    for (const CycleRecord& c : cycles_)
       if (comes_again(c)) list.push_back(&c);
     return list;
   }
-  // The last complete cycle of steady motion, or the last one before run-down.
+  double driven_until() const { return run_->periods.run_down_begin.value_or(HUGE_VAL); }
+  // The last complete period of steady motion, or the last cycle before run-down.
   void find_last_cycle() {
-    for (const CycleRecord& c : run_->cycles.cycles())
-      if (!run_->periods.run_down_begin || c.end <= *run_->periods.run_down_begin) last_ = &c;
+    for (const CycleRecord& c : cycles_)
+      if (c.end <= driven_until()) last_ = &c;
     if (last_ && (run_->periods.steady || comes_again(*last_))) repeating_ = last_;
   }
-  bool has_cycle() const { return report_.listing() ? model_.cycle > 0 : last_ != nullptr; }
+  bool has_cycle() const { return report_.listing() ? model_.cycle > 0 || clock_of(model_) > 0 : last_ != nullptr; }
 
   void add_cycle() {
     if (!has_cycle()) return;
@@ -262,11 +250,17 @@ class RunFigures {
     // A difference of times is as exact as they are.
     const double time = last_ ? last_->end - last_->begin : 0, off = last_ ? rounding_of_a_run * last_->end : 0;
     report_(quantities::mean_speed, link(), [&] {
-      const double mean = last_->mean_speed(model_.cycle);
+      const double mean = last_->mean_speed();
       return Found{mean, model_.speed_scale, last_->end, false, std::abs(mean) * off / time};
     });
-    report_(quantities::cycle_time, link(), [&] {
-      return Found{time, 2 * M_PI / model_.speed_scale, last_->end, false, off};
+    report_(quantities::cycle_time, link(), [&]() -> std::optional<Found> {
+      if (model_.cycle == 0 || last_->turned == 0) return {};
+      const double cycles = std::abs(last_->turned) / model_.cycle;
+      return Found{time / cycles, 2 * M_PI / model_.speed_scale, last_->end, false, off / cycles};
+    });
+    report_(quantities::period, "", [&]() -> std::optional<Found> {
+      if (run_->periods.cycles == 1 && run_->periods.time == 0) return {};
+      return Found{time, time, last_->end, run_->periods.time > 0, off};
     });
     for (const Account kind : {Account::driving, Account::useful, Account::harmful})
       report_(work_per_cycle_of(kind), "", [&] {
@@ -288,12 +282,16 @@ class RunFigures {
   // Energy released from the largest to the least speed by flywheels that turn rigidly with the link.
   void add_flywheels() {
     if (!has_cycle() || !(repeating_ || report_.listing())) return;
-    for (const FlywheelOnLink& f : flywheels_on_link(model_))
-      report_("flywheel_energy", f.name, [&] {
+    const std::size_t link = at(model_.reduction_node);
+    for (const auto& [component, flywheel] : model_.network.data.all<Flywheel>()) {
+      const std::size_t node = at(model_.network.ports.at(component).out);
+      if (model_.shaft_of_node[node] != model_.shaft_of_node[link]) continue;
+      const double ratio = model_.gain_of_node[node] / model_.gain_of_node[link], inertia = flywheel.inertia;
+      report_("flywheel_energy", component, [&] {
         const double max = repeating_->omega_max, min = repeating_->omega_min;
-        return Found{0.5 * f.inertia * f.ratio * f.ratio * std::abs(max * max - min * min), energy_scale(),
-                     repeating_->end};
+        return Found{0.5 * inertia * ratio * ratio * std::abs(max * max - min * min), energy_scale(), repeating_->end};
       });
+    }
   }
   void add_efficiency() {
     if (!has_cycle()) return;
@@ -380,6 +378,7 @@ class RunFigures {
   OneRun* run_ = nullptr;  // null: of a list
   Equations* equations_ = nullptr;
   double tolerance_ = 0;
+  std::vector<CycleRecord> cycles_;         // or periods of several, in steady motion
   const CycleRecord* last_ = nullptr;       // whole
   const CycleRecord* repeating_ = nullptr;  // the same, of a motion that repeats
 };

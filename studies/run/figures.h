@@ -29,7 +29,7 @@ struct OneRun {
   RunOutcome outcome;
   std::shared_ptr<TrajectoryRecorder> trajectory;
   std::unique_ptr<ExtremeRecorder> extremes;
-  CycleRecorder cycles;
+  CycleRecorder cycles, by_time;  // the latter: periods of the laws over time, if there are any
   std::unique_ptr<SpeedRecorder> speed;
   std::unique_ptr<EnergyAudit> energy;
   std::unique_ptr<HeatRecorder> heat;  // null: no heat is rated

@@ -1,10 +1,14 @@
-// periods.cpp — from cycle means, and from the last time outside a band.
+// periods.cpp — from the mid speeds of cycles, and from the last time outside a band.
 #include "studies/run/periods.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "engine/return_map/periodicity.h"
+#include "studies/answers/run_claims.h"
+#include "studies/duty/work_periods.h"
 
 namespace kurbel {
 namespace {
@@ -13,6 +17,10 @@ constexpr double least_reported = 1e-6;  // of a speed: nearer to its limit nobo
 constexpr double near_steady = 0.01, at_rest = 1e-3, steady_within = 1e-3;
 constexpr double part_of_range = 0.05;  // the margin of a cycle's range
 constexpr double nowhere = 1e3;         // times the speed: a limit so far away is rounding
+// Works of cycles that differ by less, over the largest, are alike; several cycles are one period where they leave a tenth of
+// what single ones differ by, or what the mid speeds change by a third of their range. Below this part of the energy works are
+// none.
+constexpr double alike = 1e-3, far_more_alike = 0.1, far_less = 1.0 / 3, least_work = 1e-4;
 constexpr std::size_t parts_without_cycle = 16, least_means = 3;
 // Scatter of the mid speed between cycles for a local tolerance, as a multiple of it; never more than most_noise.
 constexpr double noise_of_tolerance = 30, most_noise = 1e-5;
@@ -59,91 +67,246 @@ std::vector<double> at_equal_times(const std::vector<double>& time, const std::v
   return mean.size() > 2 ? even : mean;
 }
 
-// Between changes of a command, with their ramps, and of windows of time, up to `end`; the whole, if the sequence repeats.
+// Of the driven time, up to its end.
 struct Section {
   double begin = 0, end = 0;  // [s]
+  double started = 0;         // when the last drive to be started was [s]
 };
-std::vector<Section> sections(const Model& model, const EventLog& events, double end) {
-  std::vector<Section> list{{0, end}};
-  if (model.scene.sequence.repeat) return list;
+// Where one section ends, and the next one begins.
+struct Border {
+  double t = 0, begin = 0;  // [s]
+  bool starts = false;      // a drive, from t to begin
+};
+
+bool drives(const Model& m, const std::string& component) {
+  return std::any_of(m.network.elements.begin(), m.network.elements.end(), [&](const Network::ShaftElement& e) {
+    return e.component == component && e.element->account == Account::driving;
+  });
+}
+// From where on a law without period keeps its last value.
+double constant_from(const Curve& law) {
+  std::size_t k = law.x().size() - 1;
+  const auto ends_at = [&](std::size_t piece) {
+    const double middle = 0.5 * (law.x()[piece] + law.x()[piece + 1]), last = law.y().back();
+    return law.y()[piece] == last && law.end_value(piece) == last &&
+           law.value_in(static_cast<int>(piece), middle) == last;
+  };
+  while (k > 0 && ends_at(k - 1)) --k;
+  return law.x()[k];
+}
+double constant_from(const PrescribedSpeed& given) {
+  if (given.period() > 0 || given.time.empty() == given.law.empty()) return 0;
+  if (!given.law.empty()) return constant_from(given.law);
+  std::size_t k = given.time.size() - 1;
+  while (k > 0 && given.speed[k - 1] == given.speed.back()) --k;
+  return k > 0 ? given.time[k] : 0;
+}
+// Time from switching a component on until its starter has done its work [s]; 0: it has none.
+double start_of(const Model& m, const std::string& component) {
+  double longest = 0;
+  for (const Network::ShaftElement& e : m.network.elements)
+    if (e.component == component && e.element->is.starts_anew) longest = std::max(longest, e.element->settled_from);
+  return longest;
+}
+
+// Laws over time of few points are steps and ramps, each of which begins another motion; many points are one motion.
+void add_borders_of_steps(const Model& m, double end, std::vector<Border>& borders) {
+  constexpr std::size_t few = 8;
+  const auto next = [&](double t) {
+    double edge = HUGE_VAL;
+    for (const auto& pool : m.pools) edge = std::min(edge, pool->next_edge(t));
+    for (const PrescribedSpeed& given : m.network.prescribed)
+      if (given.command < 0) edge = std::min(edge, given.next_edge(t));
+    return edge;
+  };
+  std::vector<Border> steps;
+  for (double t = next(0); t < end && steps.size() <= few; t = next(t)) steps.push_back({t, t});
+  if (steps.size() <= few) borders.insert(borders.end(), steps.begin(), steps.end());
+}
+void add_borders_of_laws(const Model& m, double end, std::vector<Border>& borders) {
+  for (const Network::ShaftElement& e : m.network.elements) {
+    const bool anew = e.element->is.starts_anew;
+    const double settled = e.element->settled_from + (anew ? e.window.first_on() : 0);
+    if (settled > 0) borders.push_back({settled, settled, anew && e.window.first_on() < end});
+  }
+  for (const PrescribedSpeed& given : m.network.prescribed)
+    if (const double settled = constant_from(given); settled > 0) borders.push_back({settled, settled, true});
+}
+void add_borders_of_events(const Model& m, const EventLog& events, std::vector<Border>& borders) {
   for (const Event& e : events) {
     const bool commands = e.kind == EventKind::command;
-    if ((!commands && e.kind != EventKind::window) || e.t >= end) continue;
-    double ramp = 0;
-    for (const SequenceStep& step : model.scene.sequence.steps) {
+    if (!commands && e.kind != EventKind::window) continue;
+    double ramp = e.value.value_or(0) > 0 ? start_of(m, e.component) : 0;
+    for (const SequenceStep& step : m.scene.sequence.steps) {
       const bool follows = !step.law.empty();  // a law over time: to its last value
       if (commands && (follows ? step.law.y().back() : step.to) == e.value &&
           std::count(step.set.begin(), step.set.end(), e.component) > 0)
-        ramp = std::max(ramp, follows ? step.law.x().back() : step.over);
+        ramp = std::max(ramp, follows ? constant_from(step.law) : step.over);
     }
-    list.back().end = e.t;
-    list.push_back({std::max(list.back().begin, e.t + ramp), end});
+    borders.push_back({e.t, e.t + ramp, ramp > 0 && e.value != 0.0 && drives(m, e.component)});
+  }
+}
+
+std::vector<Section> sections(const Model& model, const EventLog& events, double end) {
+  std::vector<Border> borders;
+  add_borders_of_laws(model, end, borders);
+  add_borders_of_steps(model, end, borders);
+  if (!model.scene.sequence.repeat) add_borders_of_events(model, events, borders);
+  std::sort(borders.begin(), borders.end(), [](const Border& a, const Border& b) { return a.t < b.t; });
+  std::vector<Section> list{{0, end}};
+  for (const Border& border : borders) {
+    const double started = std::max(list.back().started, border.starts ? border.begin : 0);
+    if (border.t >= end) {
+      list.back().started = started;
+      continue;
+    }
+    list.back().end = border.t;
+    list.push_back({std::max(list.back().begin, border.begin), end, started});
   }
   return list;
 }
 
 // Data for the judgement, of one section.
 struct DrivenTime {
-  double begin = 0, end = 0;          // [s]
-  const CycleRecord* last = nullptr;  // cycle
-  std::vector<double> means = {};     // of the speed [rad/s]
-  double speed = 0;                   // the last cycle's mean, or the speed at the end of the driven time
+  Section of;
+  std::vector<CycleRecord> cycles = {}, by_time = {};  // whole ones within it
+  std::vector<double> means = {};                      // of its sixteenths [rad/s], where there are neither
+  std::optional<CycleRecord> last = {};                // the last period; before it is known, the last cycle
+  double speed = 0;  // its mid speed, or the speed at the end of the driven time [rad/s]
+  bool is_long_enough() const { return std::max({cycles.size(), by_time.size(), means.size()}) >= least_means; }
 };
 
-DrivenTime data_of(const Section& section, const Model& model, const std::vector<CycleRecord>& cycles,
-                   const SpeedRecorder& speed) {
-  DrivenTime d{.begin = section.begin, .end = section.end};
-  std::vector<double> middle;
-  for (const CycleRecord& c : cycles) {
-    if (c.end > d.end) break;
-    d.last = &c;
-    if (c.begin < d.begin) continue;
-    middle.push_back(0.5 * (c.begin + c.end));
-    d.means.push_back(c.mid_speed());
-  }
-  d.means = model.cycle > 0 ? at_equal_times(middle, d.means) : means_of_parts(speed, d.begin, d.end);
-  d.speed = d.last ? d.last->mid_speed() : speed.driven().empty() ? 0 : speed.driven().last();
+DrivenTime data_of(const Section& section, const Model& model, const LinkHistory& link) {
+  DrivenTime d{.of = section};
+  const auto within = [&](const std::vector<CycleRecord>& all) {
+    std::vector<CycleRecord> list;
+    for (const CycleRecord& c : all) {
+      if (c.end > section.end) break;
+      d.last = c;
+      if (c.begin >= section.begin) list.push_back(c);
+    }
+    return list;
+  };
+  d.by_time = within(link.by_time);
+  d.cycles = within(link.cycles);
+  if (model.cycle == 0 && clock_of(model) == 0) d.means = means_of_parts(link.speed, section.begin, section.end);
+  d.speed = d.last ? d.last->mid_speed() : link.speed.driven().empty() ? 0 : link.speed.driven().last();
   return d;
 }
 
-DrivenTime driven_time(const Model& model, const std::vector<CycleRecord>& cycles, const SpeedRecorder& speed,
-                       const Periods& periods, const RunOutcome& outcome) {
-  const std::vector<Section> list = sections(model, outcome.events, periods.run_down_begin.value_or(outcome.t));
+DrivenTime driven_time(const Model& model, const LinkHistory& link, const Periods& periods) {
+  const std::vector<Section> list =
+      sections(model, link.outcome.events, periods.run_down_begin.value_or(link.outcome.t));
   for (auto section = list.rbegin(); section != list.rend(); ++section)
-    if (DrivenTime d = data_of(*section, model, cycles, speed); d.means.size() >= least_means) return d;
-  return data_of(list.back(), model, cycles, speed);
+    if (DrivenTime d = data_of(*section, model, link); d.is_long_enough()) {
+      d.of.started = list.back().started;
+      return d;
+    }
+  return data_of(list.back(), model, link);
 }
 
-void judge_steadiness(const Model& model, const DrivenTime& d, double tolerance, Periods& periods) {
-  const char* unit = model.cycle > 0 ? "cycle" : "sixteenth of the time";
-  const char* speed = model.cycle > 0 ? "mid" : "mean";
-  if (d.means.size() < least_means) {
-    periods.verdict = model.cycle > 0
-                          ? fmt::format("{} whole cycle{}{}, of at least 3 needed", d.means.size(),
-                                        d.means.size() == 1 ? "" : "s", d.begin > 0 ? " since the last command" : "")
-                          : "too short a time to decide";
+// Of the mid speeds of cycles n apart, for each of the n sequences that they are; the worst counts.
+Approach approach_of_each(std::size_t n, const std::vector<CycleRecord>& cycles, double noise) {
+  Approach worst;
+  for (std::size_t before = 0; before < n; ++before) {
+    std::vector<double> middle, mid;
+    for (std::size_t k = (cycles.size() - 1 - before) % n; k + before < cycles.size(); k += n) {
+      middle.push_back(0.5 * (cycles[k].begin + cycles[k].end));
+      mid.push_back(cycles[k].mid_speed());
+    }
+    const Approach one = approach_of(at_equal_times(middle, mid), noise);
+    if (before == 0)
+      worst = one;
+    else if (worst.remaining)
+      worst.remaining = one.remaining ? std::optional(std::max(*worst.remaining, *one.remaining)) : std::nullopt;
+  }
+  return worst;
+}
+
+// The largest difference of works between cycles n apart, among the last ones, over the largest work.
+double unlike(std::size_t n, std::size_t among, const Model& m, const std::vector<CycleRecord>& cycles) {
+  double most = 0, largest = 0;
+  for (std::size_t k = cycles.size() - among + n; k < cycles.size(); ++k) {
+    const std::array<double, 4> here = works_by_kind(m, cycles[k].work), before = works_by_kind(m, cycles[k - n].work);
+    largest = std::max(largest, least_work * std::abs(cycles[k].energy_before));
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      most = std::max(most, std::abs(here[i] - before[i]));
+      largest = std::max({largest, std::abs(here[i]), std::abs(before[i])});
+    }
+  }
+  return largest > 0 ? most / largest : 0;
+}
+
+// Of the last 3 n.
+double range_of_mids(std::size_t n, const std::vector<CycleRecord>& cycles) {
+  std::vector<double> mid;
+  for (std::size_t k = cycles.size() - least_means * n; k < cycles.size(); ++k) mid.push_back(cycles[k].mid_speed());
+  return range_of(mid);
+}
+
+// The period of the motion, if it is steady by one; else single cycles. Empty: too few of them.
+std::optional<Approach> find_period(const Model& model, double tolerance, DrivenTime& d, Periods& periods) {
+  const double noise = std::min(noise_of_tolerance * tolerance, most_noise) * std::abs(d.speed);
+  const std::vector<CycleRecord>& usual = model.cycle > 0 ? d.cycles : d.by_time;
+  std::optional<Approach> best;
+  if (usual.size() >= least_means) best = approach_of_each(1, usual, noise);
+  if (d.means.size() >= least_means) best = approach_of(d.means, noise);
+  const std::vector<CycleRecord>* found =
+      nullptr;  // cycles or periods of time, of which several in a row are the period
+  std::size_t several = 0;
+  for (const auto* list : {&d.cycles, &d.by_time})
+    for (std::size_t n = 1; n <= most_cycles_of_a_period && least_means * n <= list->size(); ++n) {
+      const Approach approach = approach_of_each(n, *list, noise);
+      if (!approach.remaining || *approach.remaining > steady_within * std::abs(d.speed)) continue;
+      if (found) {
+        const double differ = unlike(several, least_means * (found == list ? n : several), model, *found);
+        if (differ <= alike || unlike(n, least_means * n, model, *list) > far_more_alike * differ) continue;
+      } else if (n > 1 && *approach.remaining > far_less * range_of_mids(n, *list)) {
+        continue;
+      }
+      best = approach, found = list, several = n;
+    }
+  if (found) periods.cycles = static_cast<int>(several), periods.time = found == &d.by_time ? clock_of(model) : 0;
+  if (const auto whole = in_periods(periods.time > 0 ? d.by_time : d.cycles, periods.cycles); !whole.empty())
+    d.last = whole.back(), d.speed = d.last->mid_speed();
+  return best;
+}
+
+void judge_steadiness(const Model& model, double tolerance, DrivenTime& d, Periods& periods) {
+  if (model.cycle == 0) periods.time = clock_of(model);
+  const std::string unit = model.cycle > 0    ? "cycle"
+                           : periods.time > 0 ? fmt::format("period of {:.6g} s", periods.time)
+                                              : "sixteenth of the time";
+  const char* speed = unit.front() == 's' ? "mean" : "mid";
+  const std::size_t whole = model.cycle > 0 ? d.cycles.size() : d.by_time.size();
+  const std::optional<Approach> approach = find_period(model, tolerance, d, periods);
+  if (!approach) {
+    periods.verdict = unit.front() == 's' ? "too short a time to decide"
+                                          : fmt::format("{} whole {}{}, of at least 3 needed", whole,
+                                                        unit == "cycle" && whole != 1 ? "cycles" : unit,
+                                                        d.of.begin > 0 ? " since the last command" : "");
     return;
   }
-  const double noise = std::min(noise_of_tolerance * tolerance, most_noise) * std::abs(d.speed);
-  const Approach approach = approach_of(d.means, noise);
   const double scale = std::abs(d.speed);
   if (!(scale > at_rest * at_rest * model.speed_scale)) {
     periods.verdict = "it stands still";
     return;
   }
-  if (approach.remaining) periods.remaining = *approach.remaining;
-  periods.steady = approach.remaining && *approach.remaining <= steady_within * scale;
-  const double change = 100 * approach.last_change / scale;
-  periods.without_limit = !approach.remaining || *approach.remaining > nowhere * scale;
+  if (approach->remaining) periods.remaining = *approach->remaining;
+  periods.steady = approach->remaining && *approach->remaining <= steady_within * scale;
+  const double change = 100 * approach->last_change / scale;
+  periods.without_limit = !approach->remaining || *approach->remaining > nowhere * scale;
   if (periods.without_limit)
     periods.verdict =
         fmt::format("the {} speed changes by {:+.2g} % per {}, and this change does not decrease", speed, change, unit);
-  else if (*approach.remaining > scale)
+  else if (*approach->remaining > scale)
     periods.verdict = fmt::format("the {} speed is still to change by more than itself", speed);
   else
     periods.verdict = fmt::format("the {} speed is {} {:.3g} % {}", speed, periods.steady ? "within" : "still",
-                                  100 * std::max(*approach.remaining / scale, least_reported),
+                                  100 * std::max(*approach->remaining / scale, least_reported),
                                   periods.steady ? "of its final value" : "from its final value");
+  if (const std::string period = period_in_words(periods, model.cycle); periods.steady && !period.empty())
+    periods.verdict = fmt::format("the speed repeats every {}, and {}", period, periods.verdict);
 }
 
 // Margins of the range of the steady motion, in the order in which they are tried: 1 % of the speed hides a run-up where
@@ -155,24 +318,29 @@ std::vector<double> margins_of(const DrivenTime& d) {
   return {std::clamp(narrow, steady_within * speed, widest), widest};
 }
 
-void find_run_up(const Model& model, const BandHistory& speed, const DrivenTime& d, double tolerance,
-                 Periods& periods) {
+void find_run_up(const Model& model, const LinkHistory& link, const DrivenTime& d, double tolerance, Periods& periods) {
+  const BandHistory& speed = link.speed.driven();
+  const double begin = d.last ? d.last->begin : d.of.end;
   double low = 0, high = 0;
   std::optional<double> entry;
   for (const double margin : margins_of(d)) {
     low = (d.last ? d.last->omega_min : d.speed) - margin;
     high = (d.last ? d.last->omega_max : d.speed) + margin;
     entry = speed.last_outside(low, high);
-    if (!entry) return;
-    if (*entry <= (d.last ? d.last->begin : d.end)) break;
+    if (!entry || *entry <= begin) break;
   }
-  if (*entry > (d.last ? d.last->begin : d.end)) {
+  if (entry && *entry > begin) {
     periods.steady = periods.without_limit = false;
     periods.verdict = fmt::format("{} the speed leaves its range, at {:.6g} s",
                                   d.last ? "after the last whole cycle" : "after the last command", *entry);
     return;
   }
+  if (d.of.started > std::max(link.begin, entry.value_or(link.begin))) {
+    periods.run_up_end = d.of.started;
+    return;
+  }
   periods.run_up_end = entry;
+  if (!entry) return;
   // A crossing that only touches the band's edge shifts much with a small error of the speed.
   const double shift = tolerance * model.speed_scale;
   for (const double s : {-shift, shift}) {
@@ -237,15 +405,32 @@ Approach approach_of(std::span<const double> values, double noise) {
   return approach;
 }
 
-Periods find_periods(const Model& model, const std::vector<CycleRecord>& cycles, const SpeedRecorder& speed,
-                     const RunOutcome& outcome, double tolerance) {
+Periods find_periods(const Model& model, const LinkHistory& link, double tolerance) {
   Periods periods;
-  periods.run_down_begin = speed.off_since();
-  const DrivenTime d = driven_time(model, cycles, speed, periods, outcome);
-  judge_steadiness(model, d, tolerance, periods);
-  if (periods.steady && !speed.driven().empty()) find_run_up(model, speed.driven(), d, tolerance, periods);
+  periods.run_down_begin = link.speed.off_since();
+  DrivenTime d = driven_time(model, link, periods);
+  judge_steadiness(model, tolerance, d, periods);
+  if (d.of.started >= periods.run_down_begin.value_or(link.outcome.t)) {
+    periods.steady = false;
+    periods.verdict = fmt::format("what drives is still being started, until {:.6g} s", d.of.started);
+  }
+  if (periods.steady && !link.speed.driven().empty()) find_run_up(model, link, d, tolerance, periods);
   if (periods.steady) periods.steady_speed = d.speed;
-  if (periods.run_down_begin) find_standstill(model, speed.coasting(), outcome, tolerance, periods);
+  if (!periods.steady) periods.cycles = 1, periods.time = model.cycle > 0 ? 0 : periods.time;
+  if (periods.run_down_begin) find_standstill(model, link.speed.coasting(), link.outcome, tolerance, periods);
+  return periods;
+}
+
+std::vector<CycleRecord> in_periods(const std::vector<CycleRecord>& cycles, int in_a_row, double until) {
+  const auto n = static_cast<std::size_t>(in_a_row);
+  const auto count = static_cast<std::size_t>(
+      std::find_if(cycles.begin(), cycles.end(), [&](const CycleRecord& c) { return c.end > until; }) - cycles.begin());
+  std::vector<CycleRecord> periods;
+  for (std::size_t k = count % n; k + n <= count; k += n) {
+    CycleRecord period = cycles[k];
+    for (std::size_t j = 1; j < n && cycles[k + j].begin == period.end; ++j) period.append(cycles[k + j]);
+    if (period.end == cycles[k + n - 1].end) periods.push_back(std::move(period));
+  }
   return periods;
 }
 

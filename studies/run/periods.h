@@ -3,23 +3,28 @@
 // All from the reduction link's speed ω on the dense output of the steps, not from samples.
 //
 // driven time   from the start until the last driving source is finally switched off; the whole run if none is.
-// section       of the driven time, between changes of a command, up to the end of their ramps and laws over time, and of
-//               windows of time; the whole of it, if the sequence repeats. What counts is the last section that has three mid speeds.
+// section       of the driven time, between changes of a command, up to the end of their ramps and laws over time, of windows of
+//               time, and of the starts of drives; from where on a law over time is constant. A sequence that repeats divides
+//               nothing. What counts is the last section that has three mid speeds.
 // mid speeds    ω_k = ½ (ω_max + ω_min) of each whole cycle of the section, converted to equal time steps. For machines
-//               without a cycle: mean speeds of sixteen equal parts of it.
+//               without a cycle: of each period of the laws over time; if there is none, mean speeds of sixteen equal parts.
 // steady        the distance of the mid speeds to their limit is at most 0.1 % of the last one. The limit follows from the
 //               decrease of the changes (approach_of): geometric, δ_k+1 = q δ_k, with a remaining sum of q/(1 − q) of
 //               the last one. Changes that do not decrease have no limit, however small they are: a runaway, a drift.
-// steady speed  the last mid speed; without a cycle the speed at the end of the driven time. Only for steady motion.
-// run-up        ends when ω, for the rest of the driven time, stays within the range of the last cycle widened by a
+// period        of steady motion: the fewest cycles, up to twelve, after which each mid speed is as above; where that leaves
+//               cycles with different works, the fewest with a tenth of the difference. Else periods of the laws over time.
+// steady speed  the mid speed of the last period; without any, the speed at the end of the driven time. Only for steady motion.
+// run-up        ends when ω, for the rest of the driven time, stays within the range of the last period widened by a
 //               twentieth of it, but by 0.1 … 1 % of the steady speed; by 1 % if ω leaves that in later cycles (without a
-//               cycle: steady speed ± 1 %). Only for steady motion; a machine that starts within that range has no run-up.
+//               period: steady speed ± 1 %); but not before a drive is started: before its starter, ramp or law has come to
+//               its end. Only for steady motion; a machine that starts within that range has no run-up.
 // run-down      from the end of the driven time to standstill, or to the end. The three periods and their works have the
 //               same borders everywhere (duty/work_periods.h).
 // standstill    |ω| finally stays below 0.1 % of its usual speed; or, where dry friction ends the motion, the link is held
 //               soon after that (rest_of, engine/run/speed_history.h), however it trembles later.
 #pragma once
 
+#include <cmath>
 #include <span>
 
 #include "engine/run/speed_history.h"
@@ -38,8 +43,18 @@ struct Approach {
 // their range, increased if it grows. Changes below `noise` are not extrapolated and count by themselves.
 Approach approach_of(std::span<const double> values, double noise);
 
+// What is known of the reduction link in a run. `by_time`: records of the periods of its laws over time (clock_of).
+struct LinkHistory {
+  double begin = 0;  // of the run [s]
+  const std::vector<CycleRecord>& cycles;
+  const std::vector<CycleRecord>& by_time;
+  const SpeedRecorder& speed;
+  const RunOutcome& outcome;
+};
 // `tolerance`: local, of the run; speed errors of this size shift the end of run-up by run_up_resolution.
-Periods find_periods(const Model& model, const std::vector<CycleRecord>& cycles, const SpeedRecorder& speed,
-                     const RunOutcome& outcome, double tolerance);
+Periods find_periods(const Model& model, const LinkHistory& link, double tolerance);
+
+// Records of so many cycles in a row, the last one with the last cycle that ends by `until`.
+std::vector<CycleRecord> in_periods(const std::vector<CycleRecord>& cycles, int in_a_row, double until = HUGE_VAL);
 
 }  // namespace kurbel

@@ -8,13 +8,17 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <set>
+#include <tuple>
 
 #include "engine/run/recorders.h"
 #include "engine/scene/units.h"
+#include "studies/claims/headline.h"
 #include "studies/duty/work_periods.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/trace.h"
+#include "studies/run/periods.h"
 #include "studies/tables/trajectory_rows.h"
 
 namespace kurbel {
@@ -28,15 +32,29 @@ std::string time_of(const Result& r, std::size_t event) {
   return with_error({r.events[event].t, error}, "") + (error ? "" : " (in the finer run only)");
 }
 
+// Those of one kind in a row, at the place of the first.
 Rows events_table(const Result& r) {
-  constexpr std::size_t most = 500;
+  struct Kind {
+    std::size_t first = 0, last = 0, count = 0;
+  };
+  std::vector<Kind> kinds;
+  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> known;
+  for (std::size_t i = 0; i < r.events.size(); ++i) {
+    const Event& e = r.events[i];
+    const auto [kind, is_new] = known.try_emplace({e.component, e.from, e.what}, kinds.size());
+    if (is_new) kinds.push_back({i});
+    kinds[kind->second].last = i, ++kinds[kind->second].count;
+  }
   Lines lines;
-  for (std::size_t i = 0; i < r.events.size() && i < most; ++i)
-    lines.push_back({r.events[i].component, r.events[i].from, r.events[i].what, time_of(r, i)});
-  if (r.events.size() > most)
-    lines.push_back({"…", "", fmt::format("{} more in summary.json", r.events.size() - most), ""});
-  Rows table = words_table(fmt::format("Events, {} model ({})", r.label, r.events.size()),
-                           {"component", "from", "to", "time [s]"}, lines);
+  for (const auto& [first, last, count] : kinds) {
+    const Event& e = r.events[first];
+    const double interval = count > 1 ? (r.events[last].t - e.t) / static_cast<double>(count - 1) : NAN;
+    lines.push_back({e.component, e.from, e.what, time_of(r, first), fmt::format("{}", count),
+                     count > 1 ? time_of(r, last) : "", count > 1 ? read_as(interval, {.digits = 4}) : ""});
+  }
+  Rows table =
+      words_table(fmt::format("Events, {} model ({})", r.label, r.events.size()),
+                  {"component", "from", "to", "first at [s]", "times", "last at [s]", "mean interval [s]"}, lines);
   table.folded = true;
   table.text_columns = 3;
   return table;
@@ -208,6 +226,8 @@ Record result_record(const Result& r) {
                              {"run_down_begin", p.run_down_begin},
                              {"standstill", p.standstill},
                              {"steady", p.steady},
+                             {"repeats_after", p.cycles},
+                             {"period_of_time", p.time > 0 ? Value(p.time) : Value()},
                              {"remaining_to_limit", p.remaining},
                              {"verdict", p.verdict}}},
           {"cycles", each(r.cycles,
@@ -315,10 +335,10 @@ void show_delta_formulas(Findings& f, Chapter in, const Results& results) {
     if (r->cycles.empty()) continue;
     const Figure* delta = first_of(*r, quantities::delta);
     if (!delta) delta = first_of(*r, quantities::cycle_fluctuation);
-    const CycleRecord* cycle = nullptr;
-    for (const CycleRecord& c : r->cycles)
-      if (delta && delta->at && c.end == *delta->at) cycle = &c;
-    if (!cycle) continue;
+    if (!delta || !delta->at) continue;
+    const std::vector<CycleRecord> periods = in_periods(r->cycles, r->periods.cycles, *delta->at);
+    if (periods.empty()) continue;
+    const CycleRecord* cycle = &periods.back();
     const SpeedUnit speed = speed_unit_of(*r);
     const bool repeats = delta->what == quantities::delta;
     const std::string symbol = repeats ? "δ" : "Δω/ω_mid";
@@ -328,8 +348,8 @@ void show_delta_formulas(Findings& f, Chapter in, const Results& results) {
                         "{} = ({:.5g} − {:.5g}) {} / {} = {}", symbol, speed.of(cycle->omega_max),
                         speed.of(cycle->omega_min), pretty_unit(speed.name), speed.text(cycle->mid_speed(), 5),
                         sure(*delta))
-                   .note(fmt::format("Cycle from {:.5g} to {:.5g} s{}.", cycle->begin, cycle->end,
-                                     repeats ? "" : "; the motion does not repeat, so this is no δ")));
+                   .note(fmt::format("{} from {:.5g} to {:.5g} s{}.", capitalised(cycle_of_figures(*r)), cycle->begin,
+                                     cycle->end, repeats ? "" : "; the motion does not repeat, so this is no δ")));
   }
 }
 

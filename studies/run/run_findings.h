@@ -51,6 +51,8 @@ const Figure* first_of(const Result& result, const QuantityKind& what);
 
 // "crank angle", or "angle of motor" if the reduction link is no mechanism.
 std::string angle_of_link(const Result& result);
+// What figures of a cycle belong to: "cycle", or "period of 3 turns" if the motion repeats after several.
+std::string cycle_of_figures(const Result& result);
 // What a mechanism moves: "slider", "rocker"; of a linkage whose output is a point: "output".
 std::string moved_part(const Model& model, const std::string& mechanism);
 

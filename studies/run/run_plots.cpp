@@ -83,6 +83,9 @@ std::string link_of(const Result& r) {
   return r.model->network.nodes[static_cast<std::size_t>(r.model->reduction_node)].component;
 }
 
+// Over the angle there are no periods of time.
+std::string cycle_of_traces(const Result& r) { return r.periods.time > 0 ? "cycle" : cycle_of_figures(r); }
+
 // Of the reduction link, in the last whole cycle of each model.
 std::optional<Plot> over_angle(const Results& results, const std::string& channel, const std::string& title,
                                const std::string& label) {
@@ -94,7 +97,8 @@ std::optional<Plot> over_angle(const Results& results, const std::string& channe
     for (const Trace& trace : last.traces) {
       if (trace.name != channel) continue;
       if (plot.series.empty()) si_unit = trace.unit;
-      plot.note = fmt::format("Last whole cycle ({}: {:.4g} … {:.4g} s).", r->label, last.begin, last.end);
+      plot.note =
+          fmt::format("Last whole {} ({}: {:.4g} … {:.4g} s).", cycle_of_traces(*r), r->label, last.begin, last.end);
       Series& series = plot.series.emplace_back(series_of(trace, r->label, role_of(*r, results)));
       for (double& x : series.x) x *= 180 / std::numbers::pi;
     }
@@ -192,9 +196,10 @@ std::optional<Plot> indicator_diagram(const Results& results, const std::string&
   if (plot.series.empty() || largest == 0) return {};
   const Result& front = *results.back();
   const Figure* work = front.find(Name::own("loop_work", mechanism).text);
-  plot.title =
-      fmt::format("{} of {} over its {}{}", rocks ? "Torque" : "Force", mechanism, rocks ? "swing" : "stroke",
-                  work ? fmt::format(": {} a cycle within the loop", short_text(std::abs(work->value), "J")) : "");
+  plot.title = fmt::format(
+      "{} of {} over its {}{}", rocks ? "Torque" : "Force", mechanism, rocks ? "swing" : "stroke",
+      work ? fmt::format(": {} a {} within the loop", short_text(std::abs(work->value), "J"), cycle_of_figures(front))
+           : "");
   const ReadableUnit way = readable_unit(farthest, rocks ? "rad" : "m"),
                      size = readable_unit(largest, rocks ? "N*m" : "N");
   plot.x.unit = way.unit, plot.y.unit = size.unit;
@@ -202,7 +207,8 @@ std::optional<Plot> indicator_diagram(const Results& results, const std::string&
     for (double& x : s.x) x *= way.factor;
     for (double& y : s.y) y *= size.factor;
   }
-  plot.note = "Indicator diagram of the last whole cycle: ∮ F dx is the work of the loads (loop_work).";
+  plot.note = fmt::format("Indicator diagram of the last whole {}: ∮ F dx is the work of the loads (loop_work).",
+                          cycle_of_traces(front));
   if (const auto* gas = compressor_of(front.model->network, mechanism)) {
     plot.title.replace(0, plot.title.find(" of "), "Pressure");
     plot.y = {"absolute pressure", "bar"};

@@ -9,6 +9,7 @@
 
 #include "engine/scene/units.h"
 #include "mechanisms/reduced/mechanism.h"
+#include "studies/answers/run_claims.h"
 #include "studies/dictionary/dictionary.h"
 #include "studies/findings/figure_text.h"
 
@@ -109,6 +110,11 @@ std::string angle_of_link(const Result& r) {
   const Network& net = r.model->network;
   const std::string& link = net.nodes[static_cast<std::size_t>(r.model->reduction_node)].component;
   return find_mechanism(net, link) ? "crank angle" : "angle of " + link;
+}
+
+std::string cycle_of_figures(const Result& r) {
+  const std::string period = r.model ? period_in_words(r.periods, r.model->cycle) : "";
+  return period.empty() ? "cycle" : "period of " + period;
 }
 
 std::string moved_part(const Model& model, const std::string& component) {

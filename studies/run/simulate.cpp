@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/numerics/index.h"
+#include "engine/return_map/periodicity.h"
 #include "engine/rigid/work_equation.h"
 #include "engine/run/checkpoint.h"
 #include "engine/values/dense_tables.h"
@@ -322,21 +323,22 @@ class Simulation {
       };
     std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles,     run->speed.get(),
                                         run->energy.get(),     run->ranges.get(),   run->slips.get(), run->link.get()};
+    if (const double clock = clock_of(model); clock > 0) observers.push_back(&(run->by_time = CycleRecorder(clock)));
     if (!run->falls->empty()) observers.push_back(run->falls.get());
     if (!run->currents->empty()) observers.push_back(run->currents.get());
     if (run->heat) observers.push_back(run->heat.get());
     if (!model.scene.figures.empty())
-      observers.push_back((run->asked = std::make_unique<AskedRecorder>(model, &run->cycles)).get());
+      observers.push_back((run->asked = std::make_unique<AskedRecorder>(model, &run->cycles, &run->by_time)).get());
     // Plots need only the first tolerance, and the timed runs remain without them.
     if (options_.traces && !result_.traces) {
       run->traces = std::make_unique<TraceRecorder>(*model_);
       observers.push_back(run->traces.get());
     }
     run->outcome = integrate(equations, options, observers);
-    if (run->traces) result_.traces = run->traces->traces();
     result_.cpu_total += run->outcome.statistics.cpu_seconds;
     result_.flow_calls += run->outcome.statistics.stepper.flow_calls;
     if (!run->outcome.state.empty()) collect_figures(model, equations, tolerance, *run);
+    if (run->traces) result_.traces = run->traces->traces(run->periods.time > 0 ? 1 : run->periods.cycles);
     const RunStatistics& s = run->outcome.statistics;
     log(fmt::format("  {} with tolerance {:.0e}: {} steps, {} rejected, {} events, {:.3g} ms{}", s.method, tolerance,
                     s.stepper.steps, s.stepper.rejected, s.events, 1e3 * s.cpu_seconds,
@@ -388,7 +390,7 @@ class Simulation {
     result_.figures = std::move(run.figures);
     result_.events = run.outcome.events;
     result_.periods = run.periods;
-    result_.cycles = run.cycles.cycles();
+    result_.cycles = (run.periods.time > 0 ? run.by_time : run.cycles).cycles();
     result_.statistics = run.outcome.statistics;
     result_.statistics.limits = limits_of(run.outcome, equations_);
     run.trajectory->add_peaks(run.extremes->rows());
