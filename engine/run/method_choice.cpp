@@ -77,7 +77,7 @@ void MethodChoice::refuse(const std::string& why) const {
 // Fehlberg's error estimate is identically zero where the rates depend on time alone. Where and why, in words.
 std::string MethodChoice::rates_of_time_alone() const {
   const Model& m = equations_.model();
-  const char* blind = "its error estimate is blind to what depends on time alone; choose dop853 or verner6";
+  const char* blind = "its error estimate misses what depends on time alone; choose dop853 or verner6";
   if (m.free_shafts < m.shafts.size()) return fmt::format("a speed is prescribed over time, and {}", blind);
   for (const Network::ShaftElement& e : m.network.elements)
     if (e.element->uses_time) return fmt::format("the torque of \"{}\" depends on time, and {}", e.component, blind);

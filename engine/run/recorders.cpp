@@ -353,7 +353,7 @@ void CycleRecorder::step(StepView& view) {
     }
     from = t;
   };
-  while (period_ > 0 && high_ <= view.t()) {
+  for (; period_ > 0 && high_ <= view.t(); Deadline::check()) {
     const double border = high_;
     extreme_until(border);
     pass(border, 1, view);

@@ -259,15 +259,11 @@ std::optional<Works> SpeedRecorder::works_at(double t) const {
   if (t == off_since_) return works_off_;
   for (const BandHistory* history : {&driven_, &coasting_})
     if (const BandHistory::Stretch* s = history->stretch_at(t)) return s->work_at(t);
-  const auto anew =
-      std::find_if(anew_.begin(), anew_.end(), [&](const Anew& a) { return std::abs(a.t - t) <= same_extreme * t; });
-  return anew == anew_.end() ? std::nullopt : std::optional(anew->work);
+  return {};
 }
 
 void SpeedRecorder::step(StepView& view) {
   on_ = is_driven(view);
-  if (audited_ && view.begins_anew())
-    anew_.push_back({view.t_previous(), works_in(view.equations(), view.y_previous())});
   if (on_ && off_since_) {  // the pause belongs to the drive's time
     driven_.append(coasting_);
     coasting_.clear();

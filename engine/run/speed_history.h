@@ -107,15 +107,14 @@ class SpeedRecorder final : public Observer {
   }
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
-  void remember(Tape& tape) override { tape(on_, driven_, coasting_, off_since_, works_off_, angles_, anew_); }
+  void remember(Tape& tape) override { tape(on_, driven_, coasting_, off_since_, works_off_, angles_); }
 
   // Up to the time at which the last driving source was switched off finally; else the whole run.
   const BandHistory& driven() const { return driven_.empty() ? coasting_ : driven_; }
   const BandHistory& coasting() const { return coasting_; }
   // Empty: something drives to the end, or nothing ever drove.
   std::optional<double> off_since() const { return driven_.empty() ? std::nullopt : off_since_; }
-  // Works up to a time of final entry into a band, of an event or an edge in time, or to off_since(); empty at other times,
-  // or without an audit.
+  // Works up to a time of final entry into a band, or to off_since(); empty at other times, or without an audit.
   std::optional<Works> works_at(double t) const;
   // Angles including full turns [rad] at multiples of interval() from the start; only for machines without a cycle.
   const std::vector<double>& angles() const { return angles_; }
@@ -143,12 +142,6 @@ class SpeedRecorder final : public Observer {
   bool audited_ = false;
   Works works_off_{};  // up to off_since_
   std::vector<double> angles_;
-  struct Anew {  // the equations, by an event or an edge
-    double t = 0;
-    Works work{};
-    void remember(Tape& tape) { tape(t, work); }
-  };
-  std::vector<Anew> anew_;
   std::optional<std::vector<double>> levels_;  // of the run before
 };
 

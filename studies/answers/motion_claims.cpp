@@ -277,13 +277,13 @@ class Judge {
     const bool moved = fastest > stands * m_.speed_scale, anything_acts = std::abs(acts()) > drives * m_.torque_scale;
     const std::string holders = holding_component();
     std::optional<Claim> claim;
-    if (!holders.empty() && (anything_acts || brake_that_holds()))
-      claim = claimed(
-          Predicate::held_by,
-          fmt::format("\"{}\" is held by {}{}", link(), holders,
-                      anything_acts ? fmt::format(" against the {:.4g} N·m that act on it", std::abs(acts())) : ""),
-          link(), {.at = rest(), .value = std::abs(acts()), .unit = "N*m"});
-    else if (!moved && (is_held() || !ever))
+    if (!holders.empty() && (anything_acts || brake_that_holds())) {
+      const std::string against =
+          anything_acts ? fmt::format(" against the {:.4g} N·m that act on it", std::abs(acts())) : "";
+      claim = claimed(Predicate::held_by, fmt::format("\"{}\" is held by {}{}", link(), holders, against), link(),
+                      {.at = rest(), .value = std::abs(acts()), .unit = "N*m"});
+      if (claim && anything_acts) claim->clause = "held by " + holders + against;
+    } else if (!moved && (is_held() || !ever))
       claim = claimed(Predicate::does_not_move, fmt::format("\"{}\" does not move", link()), link());
     if (claim) claim->in_conclusion = !moved;
     return claim;
@@ -301,15 +301,20 @@ class Judge {
     std::string holders = own || nearly_rests ? holding_component() : std::string();
     if (holders.empty() && nearly_rests) holders = "its loads";
     if (holders.empty()) return {};
-    return claimed_aside(Predicate::held_by,
-                         fmt::format("\"{}\" is held by {} against the {:.4g} N·m that it gives", motor->component,
-                                     holders, std::abs(torque_of(*motor))),
-                         motor->component, {.value = std::abs(torque_of(*motor)), .unit = "N*m"});
+    const std::string clause =
+        fmt::format("held by {} against the {:.4g} N·m that it gives", holders, std::abs(torque_of(*motor)));
+    std::optional<Claim> claim =
+        claimed_aside(Predicate::held_by, fmt::format("\"{}\" is {}", motor->component, clause), motor->component,
+                      {.value = std::abs(torque_of(*motor)), .unit = "N*m"});
+    if (claim) claim->clause = clause;
+    return claim;
   }
 
   // Less than one turn, and nearly at rest, although something drives; a brake put on meanwhile is meant to stop it.
   std::optional<Claim> never_completes_a_cycle(const Result& r, double fastest) const {
-    if (is_commanded() || !r.cycles.empty() || m_.cycle == 0 || r.periods.run_down_begin || brake_that_holds(true))
+    const auto is_whole = [&](const CycleRecord& c) { return std::abs(c.turned) > 0.5 * m_.cycle; };
+    if (is_commanded() || std::any_of(r.cycles.begin(), r.cycles.end(), is_whole) || m_.cycle == 0 ||
+        r.periods.run_down_begin || brake_that_holds(true))
       return {};
     if (std::abs(speed()) > nearly * fastest || !(std::abs(drive()) > drives * m_.torque_scale)) return {};
     const std::string* brake = brake_that_holds();
@@ -332,10 +337,12 @@ class Judge {
   std::optional<Claim> swings() const {
     const double reached = recorder_.speed_of_swing();
     if (rests() || std::abs(speed()) > turns_back_from * m_.speed_scale || reached < stands * m_.speed_scale) return {};
-    return claimed_aside(
-        Predicate::vibrates,
-        fmt::format("\"{}\" vibrates at the end, at up to {}", link(), m_.scene.speed_unit.text(reached, 4)), link(),
-        {.at = outcome_.t, .value = recorder_.frequency(), .unit = "Hz"});
+    const std::string up_to = ", at up to " + m_.scene.speed_unit.text(reached, 4);
+    std::optional<Claim> claim =
+        claimed_aside(Predicate::vibrates, fmt::format("\"{}\" vibrates at the end{}", link(), up_to), link(),
+                      {.at = outcome_.t, .value = recorder_.frequency(), .unit = "Hz"});
+    if (claim) claim->clause = "vibrating" + up_to;
+    return claim;
   }
   // A lasting vibration by its range, one that decays or grows by its amplitudes.
   std::string course_of_vibration() const {

@@ -31,7 +31,7 @@ class RunWords {
     const std::string end = !last                  ? std::string()
                             : rests                ? "at rest"
                             : !swing().empty()     ? swing()
-                            : all_but_rests(*last) ? fmt::format("nearly at rest ({})", speed(last->value))
+                            : all_but_rests(*last) ? "nearly at rest" + trembling(last->value)
                                                    : "at " + speed_and_sense(last->value);
     const Evidence at_end = last ? of(*last) : Evidence{.at = r_.until};
     if (r_.model && !r_.model->commands.empty())
@@ -59,6 +59,10 @@ class RunWords {
   bool all_but_rests(const Figure& last) const {
     return r_.model && std::abs(last.value) < 0.01 * r_.model->speed_scale;
   }
+  std::string trembling(double value) const {
+    constexpr double rounding = 1e-9;  // of the usual speed
+    return std::abs(value) > rounding * r_.model->speed_scale ? fmt::format(" ({})", speed(value)) : "";
+  }
   // Nothing in the scene gives such a speed, and the cycles are too few to decide whether it goes on.
   std::string beyond(double speed) const {
     const double times = r_.model ? std::abs(speed) / r_.model->speed_scale : 0;
@@ -71,6 +75,10 @@ class RunWords {
   }
   std::optional<Claim> strokes() const {
     const Figure* time = figure(quantities::cycle_time);
+    if (const Figure* period = r_.find(quantities::period, ""); period && !time)
+      return claimed(Predicate::works_in_strokes,
+                     fmt::format("\"{}\" moves to and fro and repeats it every {}", link(), seconds(period->value)),
+                     link(), of(*period));
     return claimed(Predicate::works_in_strokes,
                    fmt::format("\"{}\" makes single strokes{}, and rests between them", link(),
                                time ? fmt::format(", one every {}", seconds(time->value)) : ""),
@@ -92,16 +100,15 @@ class RunWords {
   // "vibrating, at up to 5 rpm": where it passes through rest, the speed of that moment has no meaning.
   std::string swing() const {
     for (const Claim& c : r_.claims)
-      if (const std::size_t at = c.text.find(", at up to"); c.predicate == Predicate::vibrates && at < c.text.size())
-        return "vibrating" + c.text.substr(at);
+      if (c.predicate == Predicate::vibrates && !c.clause.empty()) return c.clause;
     return {};
   }
   // ", held by "brake" against the 147 N·m that act on it": for a link at rest with a torque on it; a motor's is another
   // sentence.
   std::string held() const {
     for (const Claim& c : r_.claims)
-      if (c.predicate == Predicate::held_by && c.text.find(" against ") != std::string::npos)
-        return c.of == link() ? ", " + c.text.substr(c.text.find("held by ")) : "; " + c.text;
+      if (c.predicate == Predicate::held_by && !c.clause.empty())
+        return c.of == link() ? ", " + c.clause : "; " + c.text;
     return {};
   }
   // A motion that began forwards, or at rest, may be backwards.
@@ -163,7 +170,10 @@ void overloaded_motors(const Result& r, Claims& claims) {
   for (const Figure& f : r.figures) {
     const bool by_torque = f.words() == "thermal_use";
     if (!r.model || (!by_torque && f.words() != "current_use")) continue;
-    const char* of = r.model->commands.empty() ? "its steady motion" : "its heaviest cycle";
+    const std::string period = period_in_words(r.periods, r.model->cycle);
+    const std::string of = r.model->commands.empty() ? "its steady motion"
+                           : period.empty()          ? "its heaviest cycle"
+                                                     : "its heaviest period of " + period;
     add(claims, overload_claim(*r.model, f.of, f, by_torque, of));
   }
 }

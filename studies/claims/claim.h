@@ -126,6 +126,7 @@ struct Claim {
   std::string text;  // without a full stop, as displayed
   std::string of;    // component; empty: the machine
   Evidence evidence;
+  std::string clause = {};     // the statement within a sentence on the same component: "held by …"; empty: none
   std::string load_case = {};  // of a limit: "start", "steady", …
   std::string variant = {};    // the [[case]] that it belongs to; empty: the machine as it is
   std::optional<Remedy> remedy = {};

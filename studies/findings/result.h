@@ -1,6 +1,7 @@
 // result.h — results of a study for tables, JSON and reports: figures with units and measured errors.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>
@@ -103,9 +104,11 @@ struct Periods {
   bool steady = false;                                      // deviation from the limit of the mid speed < 0.1 %
   std::optional<double> remaining;                          // to the limit [rad/s]; empty: no limit is recognisable
   bool without_limit = false;  // the speed keeps changing, without slowing from cycle to cycle
-  int cycles = 1;              // after which steady motion repeats, or periods of `time`
-  double time = 0;             // [s]: what repeats are periods of the laws over time, not of the angle; 0: cycles
-  std::string verdict;         // why steady or not, in words
+  double judged_until =
+      HUGE_VAL;         // end of the last period of steady motion, else of the driven time; ∞: of the run [s]
+  int cycles = 1;       // after which steady motion repeats, or periods of `time`
+  double time = 0;      // [s]: what repeats are periods of the laws over time, not of the angle; 0: cycles
+  std::string verdict;  // why steady or not, in words
 };
 
 struct EnergyBalance {

@@ -140,11 +140,14 @@ void TraceRecorder::hand_over() {
 std::shared_ptr<const Traces> TraceRecorder::traces(int cycles) {
   hand_over();
   std::deque<CycleTraces>& last = traces_->last_cycles;
-  const std::size_t n = at(cycles), kept = n > 1 && last.size() >= n ? n : std::min<std::size_t>(2, last.size());
-  last.erase(last.begin(), last.end() - static_cast<std::ptrdiff_t>(kept));
-  for (; kept == n && last.size() > 1 && n > 1; last.erase(last.begin() + 1)) {
-    const double turned = model_->cycle * static_cast<double>(n + 1 - last.size());
-    last[0].end = last[1].end;
+  const std::size_t n = at(cycles);
+  const auto apart = [](const CycleTraces& a, const CycleTraces& b) { return a.end != b.begin; };
+  const bool joins = n > 1 && last.size() >= n &&
+                     std::adjacent_find(last.end() - static_cast<std::ptrdiff_t>(n), last.end(), apart) == last.end();
+  last.erase(last.begin(), last.end() - static_cast<std::ptrdiff_t>(joins ? n : std::min<std::size_t>(2, last.size())));
+  for (; joins && last.size() > 1; last.erase(last.begin() + 1)) {
+    const double turned = model_->cycle * last[0].cycles;
+    last[0].end = last[1].end, ++last[0].cycles;
     for (std::size_t k = 0; k < last[0].traces.size(); ++k) {
       Trace &all = last[0].traces[k], &next = last[1].traces[k];
       for (double& x : next.x) x += turned;

@@ -30,6 +30,7 @@ struct Trace {
 struct CycleTraces {
   double begin = 0, end = 0;  // [s]
   std::vector<Trace> traces;
+  int cycles = 1;  // joined, one after the other
 };
 
 // Data of a run for plots, independent of the integrator.

@@ -75,9 +75,10 @@ class RunFigures {
   RunFigures(const Model& model, std::vector<Figure>& list) : model_(model), report_(list, true) {}
 
   void collect() {
-    const LinkHistory link{begin(), run_->cycles.cycles(), run_->by_time.cycles(), *run_->speed, run_->outcome};
+    const LinkHistory link{begin(),      run_->cycles.cycles(), run_->by_time.cycles(),
+                           *run_->speed, run_->outcome,         run_->switchings.switchings()};
     const Periods& p = run_->periods = find_periods(model_, link, tolerance_);
-    cycles_ = in_periods(p.time > 0 ? link.by_time : link.cycles, p.cycles, p.cycles > 1 ? driven_until() : HUGE_VAL);
+    cycles_ = in_periods(p.time > 0 ? link.by_time : link.cycles, p.cycles, p.cycles > 1 ? p.judged_until : HUGE_VAL);
     find_last_cycle();
     add_extremes();
     add_rms();
@@ -230,11 +231,10 @@ class RunFigures {
       if (comes_again(c)) list.push_back(&c);
     return list;
   }
-  double driven_until() const { return run_->periods.run_down_begin.value_or(HUGE_VAL); }
   // The last complete period of steady motion, or the last cycle before run-down.
   void find_last_cycle() {
     for (const CycleRecord& c : cycles_)
-      if (c.end <= driven_until()) last_ = &c;
+      if (c.end <= run_->periods.judged_until) last_ = &c;
     if (last_ && (run_->periods.steady || comes_again(*last_))) repeating_ = last_;
   }
   bool has_cycle() const { return report_.listing() ? model_.cycle > 0 || clock_of(model_) > 0 : last_ != nullptr; }
@@ -254,12 +254,12 @@ class RunFigures {
       return Found{mean, model_.speed_scale, last_->end, false, std::abs(mean) * off / time};
     });
     report_(quantities::cycle_time, link(), [&]() -> std::optional<Found> {
-      if (model_.cycle == 0 || last_->turned == 0) return {};
+      if (model_.cycle == 0 || std::abs(last_->turned) < 0.5 * model_.cycle) return {};  // it moves to and fro
       const double cycles = std::abs(last_->turned) / model_.cycle;
       return Found{time / cycles, 2 * M_PI / model_.speed_scale, last_->end, false, off / cycles};
     });
     report_(quantities::period, "", [&]() -> std::optional<Found> {
-      if (run_->periods.cycles == 1 && run_->periods.time == 0) return {};
+      if (!repeating_ || (run_->periods.cycles == 1 && run_->periods.time == 0)) return {};
       return Found{time, time, last_->end, run_->periods.time > 0, off};
     });
     for (const Account kind : {Account::driving, Account::useful, Account::harmful})
@@ -344,8 +344,8 @@ class RunFigures {
                          .energy_begin = e.kinetic_start + e.stored_start,
                          .energy_end = e.kinetic_end + e.stored_end,
                          .work = e.work};
-    run_->work_periods = work_periods(model_, run_->periods, run_->cycles.cycles(), whole,
-                                      [&](double t) { return run_->speed->works_at(t); });
+    run_->work_periods =
+        work_periods(model_, run_->periods, run_->cycles.cycles(), whole, [&](double t) { return run_->works_at(t); });
     report_works(model_, run_->work_periods, report_);
   }
   void add_motors() {

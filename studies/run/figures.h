@@ -31,6 +31,7 @@ struct OneRun {
   std::unique_ptr<ExtremeRecorder> extremes;
   CycleRecorder cycles, by_time;  // the latter: periods of the laws over time, if there are any
   std::unique_ptr<SpeedRecorder> speed;
+  SwitchingRecorder switchings;
   std::unique_ptr<EnergyAudit> energy;
   std::unique_ptr<HeatRecorder> heat;  // null: no heat is rated
   std::unique_ptr<SlipRecorder> slips;
@@ -44,6 +45,10 @@ struct OneRun {
   std::vector<Figure> last_state;  // of all components: angle, speed, and those of the driven shaft; without names
   Periods periods;
   std::vector<WorkPeriod> work_periods;
+  std::optional<Works> works_at(double t) const {  // at borders of the periods
+    const std::optional<Works> work = speed->works_at(t);
+    return work ? work : switchings.works_at(t);
+  }
 };
 
 // Fills `figures` and `last_state` of a run that made progress; `tolerance` of its steps, for the criterion of steady

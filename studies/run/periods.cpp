@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/return_map/periodicity.h"
 #include "studies/answers/run_claims.h"
@@ -17,10 +18,10 @@ constexpr double least_reported = 1e-6;  // of a speed: nearer to its limit nobo
 constexpr double near_steady = 0.01, at_rest = 1e-3, steady_within = 1e-3;
 constexpr double part_of_range = 0.05;  // the margin of a cycle's range
 constexpr double nowhere = 1e3;         // times the speed: a limit so far away is rounding
-// Works of cycles that differ by less, over the largest, are alike; several cycles are one period where they leave a tenth of
-// what single ones differ by, or what the mid speeds change by a third of their range. Below this part of the energy works are
-// none.
-constexpr double alike = 1e-3, far_more_alike = 0.1, far_less = 1.0 / 3, least_work = 1e-4;
+// Works of cycles that differ by less, over the largest, are alike, or nearly so, or unlike; several cycles are one period
+// where they leave a tenth of what single ones differ by, or what the mid speeds change by a tenth of their range. Below this
+// part of the energy works are none.
+constexpr double alike = 1e-3, nearly_alike = 0.01, unlike_from = 0.05, far_less = 0.1, least_work = 1e-4;
 constexpr std::size_t parts_without_cycle = 16, least_means = 3;
 // Scatter of the mid speed between cycles for a local tolerance, as a multiple of it; never more than most_noise.
 constexpr double noise_of_tolerance = 30, most_noise = 1e-5;
@@ -67,141 +68,49 @@ std::vector<double> at_equal_times(const std::vector<double>& time, const std::v
   return mean.size() > 2 ? even : mean;
 }
 
-// Of the driven time, up to its end.
-struct Section {
-  double begin = 0, end = 0;  // [s]
-  double started = 0;         // when the last drive to be started was [s]
-};
-// Where one section ends, and the next one begins.
-struct Border {
-  double t = 0, begin = 0;  // [s]
-  bool starts = false;      // a drive, from t to begin
-};
-
-bool drives(const Model& m, const std::string& component) {
-  return std::any_of(m.network.elements.begin(), m.network.elements.end(), [&](const Network::ShaftElement& e) {
-    return e.component == component && e.element->account == Account::driving;
-  });
-}
-// From where on a law without period keeps its last value.
-double constant_from(const Curve& law) {
-  std::size_t k = law.x().size() - 1;
-  const auto ends_at = [&](std::size_t piece) {
-    const double middle = 0.5 * (law.x()[piece] + law.x()[piece + 1]), last = law.y().back();
-    return law.y()[piece] == last && law.end_value(piece) == last &&
-           law.value_in(static_cast<int>(piece), middle) == last;
-  };
-  while (k > 0 && ends_at(k - 1)) --k;
-  return law.x()[k];
-}
-double constant_from(const PrescribedSpeed& given) {
-  if (given.period() > 0 || given.time.empty() == given.law.empty()) return 0;
-  if (!given.law.empty()) return constant_from(given.law);
-  std::size_t k = given.time.size() - 1;
-  while (k > 0 && given.speed[k - 1] == given.speed.back()) --k;
-  return k > 0 ? given.time[k] : 0;
-}
-// Time from switching a component on until its starter has done its work [s]; 0: it has none.
-double start_of(const Model& m, const std::string& component) {
-  double longest = 0;
-  for (const Network::ShaftElement& e : m.network.elements)
-    if (e.component == component && e.element->is.starts_anew) longest = std::max(longest, e.element->settled_from);
-  return longest;
-}
-
-// Laws over time of few points are steps and ramps, each of which begins another motion; many points are one motion.
-void add_borders_of_steps(const Model& m, double end, std::vector<Border>& borders) {
-  constexpr std::size_t few = 8;
-  const auto next = [&](double t) {
-    double edge = HUGE_VAL;
-    for (const auto& pool : m.pools) edge = std::min(edge, pool->next_edge(t));
-    for (const PrescribedSpeed& given : m.network.prescribed)
-      if (given.command < 0) edge = std::min(edge, given.next_edge(t));
-    return edge;
-  };
-  std::vector<Border> steps;
-  for (double t = next(0); t < end && steps.size() <= few; t = next(t)) steps.push_back({t, t});
-  if (steps.size() <= few) borders.insert(borders.end(), steps.begin(), steps.end());
-}
-void add_borders_of_laws(const Model& m, double end, std::vector<Border>& borders) {
-  for (const Network::ShaftElement& e : m.network.elements) {
-    const bool anew = e.element->is.starts_anew;
-    const double settled = e.element->settled_from + (anew ? e.window.first_on() : 0);
-    if (settled > 0) borders.push_back({settled, settled, anew && e.window.first_on() < end});
-  }
-  for (const PrescribedSpeed& given : m.network.prescribed)
-    if (const double settled = constant_from(given); settled > 0) borders.push_back({settled, settled, true});
-}
-void add_borders_of_events(const Model& m, const EventLog& events, std::vector<Border>& borders) {
-  for (const Event& e : events) {
-    const bool commands = e.kind == EventKind::command;
-    if (!commands && e.kind != EventKind::window) continue;
-    double ramp = e.value.value_or(0) > 0 ? start_of(m, e.component) : 0;
-    for (const SequenceStep& step : m.scene.sequence.steps) {
-      const bool follows = !step.law.empty();  // a law over time: to its last value
-      if (commands && (follows ? step.law.y().back() : step.to) == e.value &&
-          std::count(step.set.begin(), step.set.end(), e.component) > 0)
-        ramp = std::max(ramp, follows ? constant_from(step.law) : step.over);
-    }
-    borders.push_back({e.t, e.t + ramp, ramp > 0 && e.value != 0.0 && drives(m, e.component)});
-  }
-}
-
-std::vector<Section> sections(const Model& model, const EventLog& events, double end) {
-  std::vector<Border> borders;
-  add_borders_of_laws(model, end, borders);
-  add_borders_of_steps(model, end, borders);
-  if (!model.scene.sequence.repeat) add_borders_of_events(model, events, borders);
-  std::sort(borders.begin(), borders.end(), [](const Border& a, const Border& b) { return a.t < b.t; });
-  std::vector<Section> list{{0, end}};
-  for (const Border& border : borders) {
-    const double started = std::max(list.back().started, border.starts ? border.begin : 0);
-    if (border.t >= end) {
-      list.back().started = started;
-      continue;
-    }
-    list.back().end = border.t;
-    list.push_back({std::max(list.back().begin, border.begin), end, started});
-  }
-  return list;
-}
-
 // Data for the judgement, of one section.
 struct DrivenTime {
-  Section of;
+  DrivenPart of;
   std::vector<CycleRecord> cycles = {}, by_time = {};  // whole ones within it
   std::vector<double> means = {};                      // of its sixteenths [rad/s], where there are neither
   std::optional<CycleRecord> last = {};                // the last period; before it is known, the last cycle
-  double speed = 0;  // its mid speed, or the speed at the end of the driven time [rad/s]
+  double speed = 0;   // its mid speed, or the speed at the end of the driven time [rad/s]
+  double unlike = 0;  // works of the last periods, over the largest
   bool is_long_enough() const { return std::max({cycles.size(), by_time.size(), means.size()}) >= least_means; }
 };
 
-DrivenTime data_of(const Section& section, const Model& model, const LinkHistory& link) {
+DrivenTime data_of(const DrivenPart& section, const Model& model, const LinkHistory& link) {
   DrivenTime d{.of = section};
+  const CycleRecord* last = nullptr;
   const auto within = [&](const std::vector<CycleRecord>& all) {
     std::vector<CycleRecord> list;
     for (const CycleRecord& c : all) {
       if (c.end > section.end) break;
-      d.last = c;
+      if (!last || c.end >= last->end) last = &c;
       if (c.begin >= section.begin) list.push_back(c);
     }
     return list;
   };
   d.by_time = within(link.by_time);
   d.cycles = within(link.cycles);
+  if (last) d.last = *last;
   if (model.cycle == 0 && clock_of(model) == 0) d.means = means_of_parts(link.speed, section.begin, section.end);
   d.speed = d.last ? d.last->mid_speed() : link.speed.driven().empty() ? 0 : link.speed.driven().last();
   return d;
 }
 
+// A section before a drive was started tells nothing of the motion after that.
 DrivenTime driven_time(const Model& model, const LinkHistory& link, const Periods& periods) {
-  const std::vector<Section> list =
-      sections(model, link.outcome.events, periods.run_down_begin.value_or(link.outcome.t));
-  for (auto section = list.rbegin(); section != list.rend(); ++section)
+  const double end = periods.run_down_begin.value_or(link.outcome.t);
+  const std::vector<DrivenPart> list = sections_of(model, link.switchings, link.outcome.events, end);
+  const double started = list.back().started;
+  for (auto section = list.rbegin(); section != list.rend(); ++section) {
+    if (started > 0 && section->end <= started) break;
     if (DrivenTime d = data_of(*section, model, link); d.is_long_enough()) {
-      d.of.started = list.back().started;
+      d.of.started = started;
       return d;
     }
+  }
   return data_of(list.back(), model, link);
 }
 
@@ -224,11 +133,12 @@ Approach approach_of_each(std::size_t n, const std::vector<CycleRecord>& cycles,
 }
 
 // The largest difference of works between cycles n apart, among the last ones, over the largest work.
-double unlike(std::size_t n, std::size_t among, const Model& m, const std::vector<CycleRecord>& cycles) {
+double unlike(std::size_t n, std::size_t among, const Model& m, const std::vector<CycleRecord>& cycles,
+              double least = least_work) {
   double most = 0, largest = 0;
   for (std::size_t k = cycles.size() - among + n; k < cycles.size(); ++k) {
     const std::array<double, 4> here = works_by_kind(m, cycles[k].work), before = works_by_kind(m, cycles[k - n].work);
-    largest = std::max(largest, least_work * std::abs(cycles[k].energy_before));
+    largest = std::max(largest, least * std::abs(cycles[k].energy_before));
     for (std::size_t i = 0; i < here.size(); ++i) {
       most = std::max(most, std::abs(here[i] - before[i]));
       largest = std::max({largest, std::abs(here[i]), std::abs(before[i])});
@@ -237,10 +147,10 @@ double unlike(std::size_t n, std::size_t among, const Model& m, const std::vecto
   return largest > 0 ? most / largest : 0;
 }
 
-// Of the last 3 n.
+// Of the last n: what dies away must not count as a part of the period.
 double range_of_mids(std::size_t n, const std::vector<CycleRecord>& cycles) {
   std::vector<double> mid;
-  for (std::size_t k = cycles.size() - least_means * n; k < cycles.size(); ++k) mid.push_back(cycles[k].mid_speed());
+  for (std::size_t k = cycles.size() - n; k < cycles.size(); ++k) mid.push_back(cycles[k].mid_speed());
   return range_of(mid);
 }
 
@@ -259,17 +169,35 @@ std::optional<Approach> find_period(const Model& model, double tolerance, Driven
       const Approach approach = approach_of_each(n, *list, noise);
       if (!approach.remaining || *approach.remaining > steady_within * std::abs(d.speed)) continue;
       if (found) {
-        const double differ = unlike(several, least_means * (found == list ? n : several), model, *found);
-        if (differ <= alike || unlike(n, least_means * n, model, *list) > far_more_alike * differ) continue;
+        const double since = (*list)[list->size() - least_means * n].begin;
+        const auto in_same_time = static_cast<std::size_t>(
+            std::count_if(found->begin(), found->end(), [&](const CycleRecord& c) { return c.begin >= since; }));
+        const double differ = unlike(several, std::max(least_means * several, in_same_time), model, *found);
+        const double rest = unlike(n, least_means * n, model, *list);
+        if (differ <= alike || rest > std::max(alike, std::min(nearly_alike, far_less * differ))) continue;
       } else if (n > 1 && *approach.remaining > far_less * range_of_mids(n, *list)) {
         continue;
       }
       best = approach, found = list, several = n;
     }
-  if (found) periods.cycles = static_cast<int>(several), periods.time = found == &d.by_time ? clock_of(model) : 0;
+  if (found) {
+    periods.cycles = static_cast<int>(several), periods.time = found == &d.by_time ? clock_of(model) : 0;
+    d.unlike = unlike(several, least_means * several, model, *found, 10 * least_work);
+  }
   if (const auto whole = in_periods(periods.time > 0 ? d.by_time : d.cycles, periods.cycles); !whole.empty())
     d.last = whole.back(), d.speed = d.last->mid_speed();
   return best;
+}
+
+// Of the last speed v to its limit. A rising speed is told from the limit, a falling one from where it is: a limit of zero
+// has no parts.
+std::string remaining_in_words(const Approach& approach, double v, bool steady) {
+  const double rest = *approach.remaining, now = std::abs(v);
+  if (steady) return fmt::format("is within {:.3g} % of its final value", 100 * std::max(rest / now, least_reported));
+  if (approach.alternates) return fmt::format("still varies by up to {:.3g} %", 100 * rest / now);
+  if (approach.last_change * v > 0)
+    return fmt::format("is still {:.3g} % below its final value", 100 * rest / (now + rest));
+  return fmt::format("is still to fall by {:.3g} %{}", 100 * rest / now, rest > now ? ", to beyond zero" : "");
 }
 
 void judge_steadiness(const Model& model, double tolerance, DrivenTime& d, Periods& periods) {
@@ -281,10 +209,12 @@ void judge_steadiness(const Model& model, double tolerance, DrivenTime& d, Perio
   const std::size_t whole = model.cycle > 0 ? d.cycles.size() : d.by_time.size();
   const std::optional<Approach> approach = find_period(model, tolerance, d, periods);
   if (!approach) {
-    periods.verdict = unit.front() == 's' ? "too short a time to decide"
-                                          : fmt::format("{} whole {}{}, of at least 3 needed", whole,
-                                                        unit == "cycle" && whole != 1 ? "cycles" : unit,
-                                                        d.of.begin > 0 ? " since the last command" : "");
+    const std::string units = fmt::format("{}{}{}", unit.substr(0, unit.find(' ')), whole == 1 ? "" : "s",
+                                          periods.time > 0 ? fmt::format(" of {:.6g} s", periods.time) : "");
+    periods.verdict = unit.front() == 's'
+                          ? "too short a time to decide"
+                          : fmt::format("{} whole {}{}, of at least 3 needed", whole, units,
+                                        d.of.begin > 0 ? fmt::format(" since {:.6g} s", d.of.begin) : "");
     return;
   }
   const double scale = std::abs(d.speed);
@@ -299,14 +229,13 @@ void judge_steadiness(const Model& model, double tolerance, DrivenTime& d, Perio
   if (periods.without_limit)
     periods.verdict =
         fmt::format("the {} speed changes by {:+.2g} % per {}, and this change does not decrease", speed, change, unit);
-  else if (*approach->remaining > scale)
-    periods.verdict = fmt::format("the {} speed is still to change by more than itself", speed);
   else
-    periods.verdict = fmt::format("the {} speed is {} {:.3g} % {}", speed, periods.steady ? "within" : "still",
-                                  100 * std::max(*approach->remaining / scale, least_reported),
-                                  periods.steady ? "of its final value" : "from its final value");
+    periods.verdict = fmt::format("the {} speed {}", speed, remaining_in_words(*approach, d.speed, periods.steady));
   if (const std::string period = period_in_words(periods, model.cycle); periods.steady && !period.empty())
     periods.verdict = fmt::format("the speed repeats every {}, and {}", period, periods.verdict);
+  if (periods.steady && d.unlike > unlike_from)
+    periods.verdict += fmt::format(", but the works of its last three {} differ by up to {:.2g} %",
+                                   periods.cycles > 1 || periods.time > 0 ? "periods" : "cycles", 100 * d.unlike);
 }
 
 // Margins of the range of the steady motion, in the order in which they are tried: 1 % of the speed hides a run-up where
@@ -384,7 +313,8 @@ Approach approach_of(std::span<const double> values, double noise) {
     rises = rises || v[k] - v[k - 1] > noise;
     falls = falls || v[k - 1] - v[k] > noise;
   }
-  if (rises && falls) {
+  approach.alternates = rises && falls;
+  if (approach.alternates) {
     const double before = range_of(v.first(v.size() - half)), now = range_of(v.last(half + 1));
     const double growth = std::max(1.0, now / std::max(before, noise));
     approach.remaining = std::isfinite(growth) ? now * growth * growth : now;
@@ -408,6 +338,8 @@ Approach approach_of(std::span<const double> values, double noise) {
 Periods find_periods(const Model& model, const LinkHistory& link, double tolerance) {
   Periods periods;
   periods.run_down_begin = link.speed.off_since();
+  if (model.scene.sequence.repeat && periods.run_down_begin > link.outcome.t - clock_of(model))
+    periods.run_down_begin.reset();  // a pause of a drive that is switched by the clock
   DrivenTime d = driven_time(model, link, periods);
   judge_steadiness(model, tolerance, d, periods);
   if (d.of.started >= periods.run_down_begin.value_or(link.outcome.t)) {
@@ -416,7 +348,9 @@ Periods find_periods(const Model& model, const LinkHistory& link, double toleran
   }
   if (periods.steady && !link.speed.driven().empty()) find_run_up(model, link, d, tolerance, periods);
   if (periods.steady) periods.steady_speed = d.speed;
-  if (!periods.steady) periods.cycles = 1, periods.time = model.cycle > 0 ? 0 : periods.time;
+  periods.judged_until =
+      periods.steady && d.last ? d.last->end : periods.run_down_begin.value_or(std::numeric_limits<double>::infinity());
+  if (!periods.steady) periods.cycles = 1, periods.time = 0;
   if (periods.run_down_begin) find_standstill(model, link.speed.coasting(), link.outcome, tolerance, periods);
   return periods;
 }

@@ -4,21 +4,24 @@
 //
 // driven time   from the start until the last driving source is finally switched off; the whole run if none is.
 // section       of the driven time, between changes of a command, up to the end of their ramps and laws over time, of windows of
-//               time, and of the starts of drives; from where on a law over time is constant. A sequence that repeats divides
-//               nothing. What counts is the last section that has three mid speeds.
+//               time, and of the starts of drives; from where on a law over time is constant (switchings.h). A sequence that
+//               repeats divides nothing. What counts is the last section that has three mid speeds, and none before the last
+//               start of a drive.
 // mid speeds    ω_k = ½ (ω_max + ω_min) of each whole cycle of the section, converted to equal time steps. For machines
 //               without a cycle: of each period of the laws over time; if there is none, mean speeds of sixteen equal parts.
 // steady        the distance of the mid speeds to their limit is at most 0.1 % of the last one. The limit follows from the
 //               decrease of the changes (approach_of): geometric, δ_k+1 = q δ_k, with a remaining sum of q/(1 − q) of
 //               the last one. Changes that do not decrease have no limit, however small they are: a runaway, a drift.
 // period        of steady motion: the fewest cycles, up to twelve, after which each mid speed is as above; where that leaves
-//               cycles with different works, the fewest with a tenth of the difference. Else periods of the laws over time.
+//               cycles with different works, the fewest with a tenth of the difference and at most 1 % of the works. Else
+//               periods of the laws over time.
 // steady speed  the mid speed of the last period; without any, the speed at the end of the driven time. Only for steady motion.
 // run-up        ends when ω, for the rest of the driven time, stays within the range of the last period widened by a
 //               twentieth of it, but by 0.1 … 1 % of the steady speed; by 1 % if ω leaves that in later cycles (without a
 //               period: steady speed ± 1 %); but not before a drive is started: before its starter, ramp or law has come to
 //               its end. Only for steady motion; a machine that starts within that range has no run-up.
-// run-down      from the end of the driven time to standstill, or to the end. The three periods and their works have the
+// run-down      from the end of the driven time to standstill, or to the end; a pause of a drive that the clock switches is
+//               none. The three periods and their works have the
 //               same borders everywhere (duty/work_periods.h).
 // standstill    |ω| finally stays below 0.1 % of its usual speed; or, where dry friction ends the motion, the link is held
 //               soon after that (rest_of, engine/run/speed_history.h), however it trembles later.
@@ -29,6 +32,7 @@
 
 #include "engine/run/speed_history.h"
 #include "studies/findings/result.h"
+#include "studies/run/switchings.h"
 
 namespace kurbel {
 
@@ -36,6 +40,7 @@ namespace kurbel {
 struct Approach {
   double last_change = 0;           // from the last but one value
   std::optional<double> remaining;  // |limit − last value|; empty: no limit is recognisable, or fewer than three values
+  bool alternates = false;          // changes of both senses: the limit may be on either side
 };
 
 // From the later half of the values. One-sided changes are evaluated over short and long parts of it, and the worse
@@ -50,6 +55,7 @@ struct LinkHistory {
   const std::vector<CycleRecord>& by_time;
   const SpeedRecorder& speed;
   const RunOutcome& outcome;
+  const std::vector<Switched>& switchings;
 };
 // `tolerance`: local, of the run; speed errors of this size shift the end of run-up by run_up_resolution.
 Periods find_periods(const Model& model, const LinkHistory& link, double tolerance);

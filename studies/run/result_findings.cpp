@@ -32,7 +32,7 @@ std::string time_of(const Result& r, std::size_t event) {
   return with_error({r.events[event].t, error}, "") + (error ? "" : " (in the finer run only)");
 }
 
-// Those of one kind in a row, at the place of the first.
+// One row for all that read alike, at the place of the first.
 Rows events_table(const Result& r) {
   struct Kind {
     std::size_t first = 0, last = 0, count = 0;
@@ -46,6 +46,9 @@ Rows events_table(const Result& r) {
     kinds[kind->second].last = i, ++kinds[kind->second].count;
   }
   Lines lines;
+  constexpr std::size_t most = 500;
+  const bool all = kinds.size() <= most;
+  if (!all) kinds.resize(most);
   for (const auto& [first, last, count] : kinds) {
     const Event& e = r.events[first];
     const double interval = count > 1 ? (r.events[last].t - e.t) / static_cast<double>(count - 1) : NAN;
@@ -53,7 +56,7 @@ Rows events_table(const Result& r) {
                      count > 1 ? time_of(r, last) : "", count > 1 ? read_as(interval, {.digits = 4}) : ""});
   }
   Rows table =
-      words_table(fmt::format("Events, {} model ({})", r.label, r.events.size()),
+      words_table(fmt::format("Events, {} model ({}{})", r.label, r.events.size(), all ? "" : "; the first 500 kinds"),
                   {"component", "from", "to", "first at [s]", "times", "last at [s]", "mean interval [s]"}, lines);
   table.folded = true;
   table.text_columns = 3;
@@ -226,7 +229,7 @@ Record result_record(const Result& r) {
                              {"run_down_begin", p.run_down_begin},
                              {"standstill", p.standstill},
                              {"steady", p.steady},
-                             {"repeats_after", p.cycles},
+                             {"repeats_after", p.steady ? Value(p.cycles) : Value()},
                              {"period_of_time", p.time > 0 ? Value(p.time) : Value()},
                              {"remaining_to_limit", p.remaining},
                              {"verdict", p.verdict}}},

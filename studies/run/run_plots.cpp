@@ -83,8 +83,13 @@ std::string link_of(const Result& r) {
   return r.model->network.nodes[static_cast<std::size_t>(r.model->reduction_node)].component;
 }
 
-// Over the angle there are no periods of time.
-std::string cycle_of_traces(const Result& r) { return r.periods.time > 0 ? "cycle" : cycle_of_figures(r); }
+// Over the angle there are no periods of time, and turns that do not follow each other are not joined.
+std::string cycle_of_traces(const Result& r) {
+  const int joined = r.traces->last_cycles.empty() ? 1 : r.traces->last_cycles.back().cycles;
+  return joined == 1                                         ? "cycle"
+         : r.periods.time == 0 && joined == r.periods.cycles ? cycle_of_figures(r)
+                                                             : fmt::format("period of {} cycles", joined);
+}
 
 // Of the reduction link, in the last whole cycle of each model.
 std::optional<Plot> over_angle(const Results& results, const std::string& channel, const std::string& title,
@@ -196,10 +201,11 @@ std::optional<Plot> indicator_diagram(const Results& results, const std::string&
   if (plot.series.empty() || largest == 0) return {};
   const Result& front = *results.back();
   const Figure* work = front.find(Name::own("loop_work", mechanism).text);
-  plot.title = fmt::format(
-      "{} of {} over its {}{}", rocks ? "Torque" : "Force", mechanism, rocks ? "swing" : "stroke",
-      work ? fmt::format(": {} a {} within the loop", short_text(std::abs(work->value), "J"), cycle_of_figures(front))
-           : "");
+  const bool is_drawn = work && cycle_of_traces(front) == cycle_of_figures(front);
+  plot.title = fmt::format("{} of {} over its {}{}", rocks ? "Torque" : "Force", mechanism, rocks ? "swing" : "stroke",
+                           is_drawn ? fmt::format(": {} a {} within the loop", short_text(std::abs(work->value), "J"),
+                                                  cycle_of_figures(front))
+                                    : "");
   const ReadableUnit way = readable_unit(farthest, rocks ? "rad" : "m"),
                      size = readable_unit(largest, rocks ? "N*m" : "N");
   plot.x.unit = way.unit, plot.y.unit = size.unit;
@@ -207,8 +213,8 @@ std::optional<Plot> indicator_diagram(const Results& results, const std::string&
     for (double& x : s.x) x *= way.factor;
     for (double& y : s.y) y *= size.factor;
   }
-  plot.note = fmt::format("Indicator diagram of the last whole {}: ∮ F dx is the work of the loads (loop_work).",
-                          cycle_of_traces(front));
+  plot.note = fmt::format("Indicator diagram of the last whole {}: ∮ F dx is the work of the loads{}.",
+                          cycle_of_traces(front), is_drawn ? " (loop_work)" : "");
   if (const auto* gas = compressor_of(front.model->network, mechanism)) {
     plot.title.replace(0, plot.title.find(" of "), "Pressure");
     plot.y = {"absolute pressure", "bar"};

@@ -159,11 +159,14 @@ std::string figures_in_words(const Result& r) {
         r.periods.remaining || r.periods.without_limit ? "which is not steady" : "whose steadiness is not judged"));
   for (const Figure& f : r.figures)
     if (f.words() == "thermal_use" && f.value <= 1)  // a greater one is reported before
-      more(fmt::format(
-          "the thermal load of \"{}\" is {:.0f} % (RMS over rated torque{})", f.of, 100 * f.value,
-          r.model && !r.model->commands.empty() && f.at
-              ? fmt::format(", {} {:.4g} s", r.model->cycle > 0 ? "in its heaviest cycle, up to" : "at", *f.at)
-              : ""));
+      more(fmt::format("the thermal load of \"{}\" is {:.0f} % (RMS over rated torque{})", f.of, 100 * f.value,
+                       r.model && !r.model->commands.empty() && f.at
+                           ? fmt::format(", {} {:.4g} s",
+                                         r.model->cycle > 0 || r.periods.time > 0
+                                             ? fmt::format("in its heaviest {}, up to", cycle_of_figures(r))
+                                             : "at",
+                                         *f.at)
+                           : ""));
   if (has_works(r) && nothing_turned_over(r.energy)) more("no work is done and no energy is converted");
   return text;
 }

@@ -321,8 +321,9 @@ class Simulation {
       options.progress = [&](double fraction) {
         options_.watch.progress(fmt::format("{} (tolerance {:.0e})", result_.label, tolerance), fraction);
       };
-    std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles,     run->speed.get(),
-                                        run->energy.get(),     run->ranges.get(),   run->slips.get(), run->link.get()};
+    std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles,
+                                        run->speed.get(),      run->energy.get(),   run->ranges.get(),
+                                        run->slips.get(),      run->link.get(),     &run->switchings};
     if (const double clock = clock_of(model); clock > 0) observers.push_back(&(run->by_time = CycleRecorder(clock)));
     if (!run->falls->empty()) observers.push_back(run->falls.get());
     if (!run->currents->empty()) observers.push_back(run->currents.get());
@@ -426,13 +427,12 @@ class Simulation {
   std::optional<Equations> equations_elsewhere_;
   std::optional<Checkpoint> checkpoint_;  // where it goes on from
   std::shared_ptr<WorkTables> work_tables_;
-  double tolerance_ = 0, elsewhere_tolerance_ = 0;        // of fine_ and elsewhere_
-  std::unique_ptr<OneRun> fine_, coarse_, elsewhere_;     // the run whose figures count, and its witnesses
-  std::unique_ptr<OneRun> coarse_elsewhere_;              // the independent one before it, with a larger tolerance
-  double weight_of_coarse_ = 1;                           // measured_errors.h says why
-  bool ladder_failed_ = false, elsewhere_ended_ = false;  // a tighter run of theirs failed
-  bool stiff_ = false;                                    // "auto" takes implicit steps
-  std::string unconfirmed_;                               // why that was
+  std::unique_ptr<OneRun> fine_, coarse_, elsewhere_;  // the run whose figures count, and its witnesses
+  std::unique_ptr<OneRun> coarse_elsewhere_;           // the independent one before it, with a larger tolerance
+  double tolerance_ = 0, elsewhere_tolerance_ = 0, weight_of_coarse_ = 1;  // measured_errors.h
+  bool ladder_failed_ = false, elsewhere_ended_ = false;                   // a tighter run of theirs failed
+  bool stiff_ = false;                                                     // "auto" takes implicit steps
+  std::string unconfirmed_;                                                // why that was
   Result result_;
 };
 

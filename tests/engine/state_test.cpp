@@ -173,12 +173,16 @@ TEST(State, TwoThreadsGoOnFromOneToTheSameBits) {
 struct Watched {
   TrajectoryRecorder trajectory;
   ExtremeRecorder extremes;
-  CycleRecorder cycles;
+  CycleRecorder cycles, by_time;
   SpeedRecorder speed;
   EnergyAudit energy;
   explicit Watched(const Model& model, double until)
-      : trajectory(channels_of(model, {}), until, 50), extremes(extremes_of(model)), speed(until), energy(until, 10) {}
-  std::vector<Observer*> all() { return {&trajectory, &extremes, &cycles, &speed, &energy}; }
+      : trajectory(channels_of(model, {}), until, 50),
+        extremes(extremes_of(model)),
+        by_time(until / 7.3),
+        speed(until),
+        energy(until, 10) {}
+  std::vector<Observer*> all() { return {&trajectory, &extremes, &cycles, &by_time, &speed, &energy}; }
   std::vector<std::vector<double>> memory() {
     std::vector<std::vector<double>> list;
     for (Observer* observer : all()) {
@@ -218,12 +222,17 @@ TEST(State, RecordersGoOnWithTheRun) {
 
     watch(here, whole, until);
     EXPECT_EQ(second.trajectory.time(), whole.trajectory.time());
-    ASSERT_EQ(second.cycles.cycles().size(), whole.cycles.cycles().size());
-    for (std::size_t k = 0; k < whole.cycles.cycles().size(); ++k) {
-      const CycleRecord &a = second.cycles.cycles()[k], &b = whole.cycles.cycles()[k];
-      EXPECT_NEAR(a.end - a.begin, b.end - b.begin, 1e-6 * (b.end - b.begin)) << k;
-      EXPECT_NEAR(a.omega_max, b.omega_max, 1e-6 * std::abs(b.omega_max)) << k;
+    for (const auto recorder : {&Watched::cycles, &Watched::by_time}) {
+      const std::vector<CycleRecord>&these = (second.*recorder).cycles(), &those = (whole.*recorder).cycles();
+      ASSERT_EQ(these.size(), those.size());
+      for (std::size_t k = 0; k < those.size(); ++k) {
+        const CycleRecord &a = these[k], &b = those[k];
+        EXPECT_NEAR(a.end - a.begin, b.end - b.begin, 1e-6 * (b.end - b.begin)) << k;
+        EXPECT_NEAR(a.omega_max, b.omega_max, 1e-6 * std::max(std::abs(b.omega_max), 0.01 * model->speed_scale)) << k;
+        EXPECT_NEAR(a.turned, b.turned, 1e-6 * std::max(1.0, std::abs(b.turned))) << k;
+      }
     }
+    EXPECT_EQ(whole.by_time.cycles().size(), 7u);
     for (std::size_t i = 0; i < whole.extremes.found().size(); ++i) {
       const double a = second.extremes.found()[i].value, b = whole.extremes.found()[i].value;
       EXPECT_NEAR(a, b, 1e-6 * std::max(whole.extremes.wanted()[i].scale, std::abs(b)))

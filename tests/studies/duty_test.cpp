@@ -271,7 +271,8 @@ TEST(SteadyRatings, LeaveStartsAndEngagementsToARun) {
   for (const Verdict& v : steady_ratings(s.cycles.back()))
     if (v.state() == Compliance::not_assessed) left.insert(v.component + ", " + v.load_case);
   const std::string run = load_case::run, start = load_case::start;
-  EXPECT_EQ(left, (std::multiset<std::string>{"belt, " + start, "clutch, " + run, "clutch, " + run, "motor, " + run}));
+  EXPECT_EQ(left, (std::multiset<std::string>{"belt, " + start, "clutch, " + run, "clutch, " + run, "clutch, " + run,
+                                              "motor, " + run}));
   const std::string reported = findings_of(s).conclusion();
   EXPECT_NE(reported.find("ratings that are assessed hold"), std::string::npos) << reported;
   EXPECT_NE(reported.find("not assessed: "), std::string::npos) << reported;

@@ -439,7 +439,7 @@ load = {{ kind = "opposing", force = "171.81 N" }}
   ASSERT_EQ(std::count_if(r.cycles.begin(), r.cycles.end(), [](const CycleRecord& c) { return c.begin > 1.01706; }), 2);
   ASSERT_GT(r.cycles.size(), 3u);
   EXPECT_FALSE(r.periods.steady);
-  EXPECT_EQ(r.periods.verdict, "2 whole cycles since the last command, of at least 3 needed");
+  EXPECT_EQ(r.periods.verdict, "2 whole cycles since 1.01706 s, of at least 3 needed");
   const Result longer = reversed(11.5);
   ASSERT_TRUE(longer.periods.steady) << longer.periods.verdict;
   EXPECT_GT(std::abs(longer.cycles.back().mid_speed() / r.cycles.back().mid_speed() - 1), 2e-4);
