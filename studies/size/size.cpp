@@ -51,8 +51,7 @@ class Sizer : MachineOnBasis {
     if (s_.basis == CycleBasis::classical && machine_->uses_time())
       s_.notes.push_back("some torque depends on time; the torques are those at t = 0");
     if (model().scene.run.start.speed == 0)
-      s_.notes.push_back(
-          "sizing looks at steady motion; whether the machine starts from rest is what kurbel run shows");
+      s_.notes.push_back("size considers steady motion only; kurbel run shows whether the machine starts from rest");
     apply_methods();
     find_punch();
     if (options_.simulate) reach_sized(s_, scene_, options_, s_.operating ? s_.operating->speed : start_speed_);
@@ -87,6 +86,11 @@ class Sizer : MachineOnBasis {
   // Everything that turns at constant ratio, reduced to the flywheel's shaft.
   void list_inertias() {
     const Model& m = model();
+    if (at(m.shaft_of_node[at(m.reduction_node)]) >= m.free_shafts)
+      throw std::invalid_argument(
+          fmt::format("the speed of \"{}\" is prescribed: no flywheel changes its fluctuation; size needs a drive that "
+                      "gives a torque",
+                      component_of(m, m.reduction_node)));
     const int node = m.network.ports.at(s_.flywheel).in;
     s_.flywheel_ratio = m.node_ratio[at(node)];
     if (s_.flywheel_ratio == 0)

@@ -8,91 +8,13 @@
 #include "engine/scene/units.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/output.h"
-#include "studies/limits/verdicts.h"
 #include "studies/sheet/scales.h"
 #include "studies/size/size.h"
 #include "studies/size/size_plots.h"
+#include "studies/size/size_words.h"
 
 namespace kurbel {
 namespace {
-
-const SizeMethod& exact_method(const Sizing& s) { return s.methods.front(); }
-
-const DeltaReached* reached(const Sizing& s, SizedModel model) {
-  for (const DeltaReached& r : s.reached)
-    if (r.model == model && r.by == SizedBy::constant_drive) return &r;
-  return nullptr;
-}
-
-const DeltaReached* reached_by_machine(const Sizing& s) {
-  const DeltaReached* real = reached(s, SizedModel::elastic);
-  return real ? real : reached(s, SizedModel::rigid);
-}
-// The machine as it is has a larger δ with the flywheel of the work equation, by more than its error.
-bool misses(const Sizing& s) {
-  constexpr double visible = 1.02;
-  const DeltaReached* real = reached_by_machine(s);
-  return s.needed && real && real->crank.value - real->crank.error.value_or(0) > visible * s.delta;
-}
-
-// Where the flywheel is.
-std::string on_what(const Sizing& s) {
-  return s.flywheel_added ? fmt::format("the shaft of \"{}\"", s.link) : fmt::format("\"{}\"", s.flywheel);
-}
-
-std::string conclusion_of(const Sizing& s) {
-  const SizeMethod& exact = exact_method(s);
-  if (s.needed && exact.flywheel.value <= 0)
-    return fmt::format(
-        "By the work equation no flywheel is needed for δ = {:g}, but with the scene's effects the machine has δ = "
-        "{:.4g}; {}",
-        s.delta, s.reached.front().crank.value, s.meeting_words);
-  if (!s.needed)
-    return fmt::format(
-        "{} flywheel is needed for δ = {:g}: without any, δ is smaller already; {}",
-        s.estimate ? "By an estimate, the rigid machine without its losses, no" : "No", s.delta,
-        exact.drive_inertia > 0
-            ? fmt::format("the drive could be lighter by {:.4g} kg·m² on {}", -exact.flywheel.value, on_what(s))
-            : std::string("its torques would not make the speed fluctuate as much with any inertia"));
-  std::string text = s.estimate ? fmt::format(
-                                      "An estimate, by the rigid machine without its losses: a flywheel of about "
-                                      "{:.3g} kg·m² on {} for δ = {:g} {}",
-                                      exact.flywheel.value, on_what(s), s.delta, basis_of(s))
-                                : fmt::format("A flywheel of {:.4g} kg·m² on {} keeps δ at {:g} {}",
-                                              exact.flywheel.value, on_what(s), s.delta, basis_of(s));
-  text += fmt::format(", at a mid speed of {} of \"{}\" ({})", s.speed_unit.text(s.mid_speed, 4), s.link,
-                      s.mid_speed_source);
-  if (s.stalls) text += "; with the torques as they are over the speed the machine stalls with it";
-  if (s.soft) {
-    const double less = 100 * (1 - s.soft->flywheel.value / exact.flywheel.value);
-    text += s.soft->none_needed ? fmt::format("; with {} considered none is needed", slope_of_what(s))
-                                : fmt::format("; with {} considered {:.4g} kg·m² {} ({:.3g} % {})", slope_of_what(s),
-                                              s.soft->flywheel.value, less >= 0 ? "suffice" : "are needed",
-                                              std::abs(less), less >= 0 ? "less" : "more");
-  }
-  if (!s.meeting_words.empty() && !(misses(s) && s.meeting)) text += "; " + s.meeting_words;
-  return text;
-}
-
-std::string at_motor(const Sizing& s, const DeltaReached& r) {
-  return s.motor.empty() || r.model == SizedModel::rigid ? "" : fmt::format(", and {:.4g} at the motor", r.motor.value);
-}
-
-// Results of the sized machine, one sentence per model: δ is demanded and assessed at the crank.
-std::string words_of(const Sizing& s, const DeltaReached& r) {
-  return fmt::format("{} with {:.4g} kg·m², δ is {:.4g} at the crank{}",
-                     r.model == SizedModel::elastic ? "Simulated elastic" : "Simulated rigid", r.flywheel,
-                     r.crank.value, at_motor(s, r));
-}
-
-std::string comparison_with_scene(const Sizing& s) {
-  if (s.flywheel_added) return fmt::format("The scene has no flywheel; it is put on the shaft of \"{}\".", s.link);
-  const double needed = s.chosen().flywheel.value;
-  const std::string now = std::isnan(s.delta_now) ? "the machine would stop within the cycle"
-                                                  : fmt::format("δ = {:.4g} {}", s.delta_now, basis_of(s));
-  return fmt::format("The scene's \"{}\" has {:.4g} kg·m²: {}; it is {}.", s.flywheel, s.flywheel_now, now,
-                     s.flywheel_now >= needed ? "already larger than needed" : "too small");
-}
 
 // --- tables ---
 
@@ -106,7 +28,12 @@ void say_titled(Findings& f, Chapter in, Rows rows) {
 }
 
 auto ended_at_error(double SizeMethod::*inertia) {
-  return [inertia](const SizeMethod& m) { return figure_text({m.*inertia, m.flywheel.error}).value; };
+  return [inertia](const SizeMethod& m) {
+    constexpr double rounding = 1e-12;  // of the inertias
+    const bool zero =
+        std::abs(m.*inertia) <= rounding * std::max(std::abs(m.flywheel.value), std::abs(m.flywheel_by_parts));
+    return zero ? std::string("0") : figure_text({m.*inertia, m.flywheel.error}).value;
+  };
 }
 
 Rows methods_table(const Sizing& s) {
@@ -121,8 +48,13 @@ Rows methods_table(const Sizing& s) {
       .only_for_programs("flywheel_by_parts", &SizeMethod::flywheel_by_parts)
       .only_for_people("I_drive on link [kg·m²]", ended_at_error(&SizeMethod::drive_inertia))
       .value_and_error("flywheel [kg·m²]",
-                       [](const SizeMethod& m, int digits) { return figure_text(m.flywheel, digits); })
-      .only_for_people("by theory 3.1 [kg·m²]", ended_at_error(&SizeMethod::flywheel_by_parts))
+                       [](const SizeMethod& m, int digits) {
+                         return m.flywheel.value > 0 ? figure_text(m.flywheel, digits) : FigureText{"none", ""};
+                       })
+      .only_for_people("by theory 3.1 [kg·m²]",
+                       [](const SizeMethod& m) {
+                         return m.flywheel_by_parts > 0 ? ended_at_error(&SizeMethod::flywheel_by_parts)(m) : "none";
+                       })
       .only_for_people(
           "against exact [%]",
           [&](const SizeMethod& m) { return fmt::format("{:+.3f}", 100 * (m.drive_inertia / s.exact.inertia - 1)); })
@@ -241,28 +173,6 @@ Rows scales_table(const Sizing& s) {
   return table;
 }
 
-Sentences basis_words(const Sizing& s) {
-  return {.lines = {fmt::format("δ = {:g} ({}), mid speed {} of {} ({})", s.delta, s.delta_source,
-                                s.speed_unit.text(s.mid_speed), s.link, s.mid_speed_source),
-                    fmt::format("work of a cycle {}, greatest fluctuation of energy {} between {:.5g}° and {:.5g}°",
-                                with_unit(s.diagram.work, "J"), with_unit(s.diagram.fluctuation(), "J"),
-                                s.diagram.least.x * in_degrees, s.diagram.most.x * in_degrees),
-                    s.basis == CycleBasis::classical
-                        ? std::string("classical: constant drive torque; loads of the rigid machine at constant speed")
-                        : std::string("loads along the steady cycle that the machine has with the scene's effects, and "
-                                      "the constant drive torque that balances them"),
-                    comparison_with_scene(s)},
-          .indent = "  ",
-          .page = false};
-}
-
-std::string punch_words(const PunchPress& p) {
-  return fmt::format(
-      "punch-press form: a stroke takes {} within {:.4g} s of {:.4g} s; the flywheel gives {}, the motor {}",
-      with_unit(p.energy, "J"), p.working_time, p.cycle_time, with_unit(p.from_flywheel(), "J"),
-      with_unit(p.power(), "W"));
-}
-
 // --- for programs and files ---
 
 Record tangent_record(const Tangent& t) {
@@ -305,7 +215,7 @@ void report_basis(Findings& f, const Sizing& s) {
   f.record("flywheel", Record{{"component", s.flywheel},
                               {"added", s.flywheel_added},
                               {"needed", s.needed},
-                              {"inertia", exact_method(s).flywheel.value},
+                              {"inertia", s.methods.front().flywheel.value},
                               {"unit", "kg*m2"},
                               {"in_scene", s.flywheel_now},
                               {"speed_ratio", s.flywheel_ratio},
@@ -339,7 +249,7 @@ DataTable diagrams_data(const Sizing& s) {
 
 void add_key_figures(Findings& f, const Sizing& s) {
   if (s.meeting) f.key("flywheel that meets δ", s.meeting->flywheel, "flywheel_that_meets", s.meeting->name);
-  f.key("flywheel", exact_method(s).flywheel, "flywheel", "Wittenbauer, exact " + basis_of(s));
+  f.key("flywheel", s.methods.front().flywheel, "flywheel", "Wittenbauer, exact " + basis_of(s));
   if (s.soft) f.key("flywheel with " + slope_of_what(s), s.soft->flywheel, "flywheel_with_slope");
   for (const DeltaReached& r : s.reached)
     if (r.by == SizedBy::constant_drive && r.model != SizedModel::work_equation) {
@@ -362,25 +272,9 @@ void say_notes(Findings& f, Chapter in, const Sizing& s) {
 
 // The actual machine may not have the δ that it was sized for.
 void add_answers(Findings& f, const Sizing& s) {
-  const DeltaReached* real = reached_by_machine(s);
   f.conclude(s.complete, conclusion_of(s));
-  for (const SizedModel model : {SizedModel::rigid, SizedModel::elastic})
-    if (const DeltaReached* r = s.needed ? reached(s, model) : nullptr; r && !(misses(s) && r == real))
-      f.conclude(true, words_of(s, *r));
-  if (misses(s))
-    f.claim(claimed(
-        Predicate::demand_missed,
-        fmt::format(
-            "{}the work equation gives {:.6g} kg·m², too small for δ = {:g}: simulated {}, δ is {:.4g} at the crank, "
-            "{:.3g} times that{}{}",
-            !s.meeting ? ""
-                       : fmt::format(fmt::runtime(s.flywheel_added ? "{1:.6g} kg·m² are needed on {0}; "
-                                                                   : "{0} needs {1:.6g} kg·m²; "),
-                                     on_what(s), s.meeting->flywheel.value),
-            exact_method(s).flywheel.value, s.delta, real->model == SizedModel::elastic ? "elastic" : "rigid",
-            real->crank.value, real->crank.value / s.delta, at_motor(s, *real),
-            s.meeting && !real->slips.empty() ? "; " + real->slips : ""),
-        s.link, {.value = real->crank.value, .limit = s.delta, .error = real->crank.error}));
+  for (const std::string& text : motions_in_words(s)) f.conclude(true, text);
+  f.claim(missed_demand(s));
 }
 
 // Rim speed and stress of the resulting flywheel, at the greatest speed of the cycle.

@@ -117,10 +117,8 @@ Formulas motor_formulas(const Sizing& s) {
     list.add("Without a flywheel, with these torques", "δ(I₀) < δ", "δ = {:.6g} at I₀ = {:.6g} kg·m²: none is needed",
              *s.soft->delta, s.soft->drive_inertia);
   else if (s.soft)
-    list.add("Inertia that gives δ with these torques", "δ(I₀) = δ",
-             "I₀ = {:.6g} kg·m², flywheel {:.6g} kg·m², {:.4g} % {} than without their slope", s.soft->drive_inertia,
-             s.soft->flywheel.value, std::abs(100 * (1 - s.soft->flywheel.value / s.methods.front().flywheel.value)),
-             s.soft->flywheel.value <= s.methods.front().flywheel.value ? "less" : "more")
+    list.add("Inertia that gives δ with these torques", "δ(I₀) = δ", "I₀ = {:.6g} kg·m², flywheel {:.6g} kg·m²",
+             s.soft->drive_inertia, s.soft->flywheel.value)
         .note(fmt::format("Its mid speed (ω_max + ω_min)/2 is then {}.", s.speed_unit.text(s.soft_speed)));
   return list;
 }

@@ -271,8 +271,17 @@ TEST(Size, FlywheelThatIsNotNeededIsSaidSo) {
   EXPECT_FALSE(s.needed);
   EXPECT_LE(s.methods[0].flywheel.value, 0);
   EXPECT_NE(output_of(s).conclusion().find("No flywheel is needed"), std::string::npos);
+  const Sizing light =
+      size_flywheel(test::scene_file("scenes/shaper.toml"), demand(0.3));  // its flywheel is one on the crank
+  const double suffices = light.methods[0].drive_inertia;
+  EXPECT_NE(output_of(light).conclusion().find(
+                fmt::format("of the drive's {:.4g} kg·m² on the shaft of \"shaper\" {:.4g} kg·m² suffice",
+                            suffices - light.methods[0].flywheel.value, suffices)),
+            std::string::npos)
+      << output_of(light).conclusion();
   const Sizing large = size_flywheel(test::scene_from(press(straight(1200, 9), "5000 kg*m2")), demand(0.1));
-  EXPECT_NE(output_of(large).text().find("already larger than needed"), std::string::npos);
+  EXPECT_NE(output_of(large).text().find(fmt::format("; {:.4g} kg·m² are needed.", large.methods[0].flywheel.value)),
+            std::string::npos);
 }
 
 // By the work equation 356.8 kg·m² do, simulated elastic 438.1 are needed: what is to be built is the latter, and the
@@ -283,7 +292,27 @@ TEST(Size, DimensionsAreThoseOfTheFlywheelThatMeetsTheDemand) {
   ASSERT_LT(s.methods.front().flywheel.value, s.flywheel_now);
   ASSERT_GT(s.meeting->flywheel.value, s.flywheel_now);
   EXPECT_NEAR(s.dimensions->inertia, s.meeting->flywheel.value, 1e-9 * s.meeting->flywheel.value);
-  EXPECT_NE(output_of(s).text().find("it is too small"), std::string::npos);
+  EXPECT_NE(output_of(s).text().find(
+                fmt::format("; {:.4g} kg·m² are needed with the torques as they are", s.meeting->flywheel.value)),
+            std::string::npos);
+}
+
+TEST(Size, RefusesAPrescribedSpeed) {
+  try {
+    size_flywheel(test::scene_file("scenes/stick_slip.toml"), demand(0.025));
+    FAIL() << "sized";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("the speed of \"drive\" is prescribed"), std::string::npos)
+        << error.what();
+  }
+}
+
+// The work equation requires none; the elastic shaft does. A flywheel of -48900 kg·m² was stated.
+TEST(Size, NoNegativeFlywheelIsStated) {
+  const Sizing s = size_flywheel(test::scene_file("scenes/ship_propulsion.toml"), demand(0.025, true));
+  const std::string said = output_of(s).conclusion();
+  EXPECT_EQ(said.find(" -"), std::string::npos) << said;
+  EXPECT_NE(said.find("requires no flywheel"), std::string::npos) << said;
 }
 
 TEST(Size, RefusesInWords) {
