@@ -319,6 +319,13 @@ std::vector<NamedShaft> shafts_of(const Model& m) {
   return shafts;
 }
 
+std::string name_of_link(const Model& m) {
+  const std::vector<NamedShaft> shafts = shafts_of(m);
+  const auto link =
+      std::find_if(shafts.begin(), shafts.end(), [&](const NamedShaft& s) { return s.node == m.reduction_node; });
+  return link == shafts.end() ? m.node_label(m.reduction_node) : link->name;
+}
+
 Period figures_of_period(const ReturnMap& map, const SteadyPoint& point, double tolerance) {
   return CycleFigures(map, point, tolerance).collect();
 }

@@ -15,6 +15,8 @@ struct NamedShaft {
 };
 // All components, at both ends; for a long machine only those of the link and at its ends.
 std::vector<NamedShaft> shafts_of(const Model& model);
+// The reduction link as figures name it: a component with one shaft has no "in".
+std::string name_of_link(const Model& model);
 
 // All results for one period of a fixed point.
 struct Period {

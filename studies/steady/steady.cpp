@@ -16,6 +16,7 @@
 #include "engine/scene/units.h"
 #include "studies/claims/headline.h"
 #include "studies/findings/figure_text.h"
+#include "studies/steady/cycle_figures.h"
 #include "studies/steady/cycle_search.h"
 
 namespace kurbel {
@@ -99,7 +100,7 @@ class Study {
   SteadyStudy run() {
     const auto model = compile(scene_, effects_.back());
     out_.is_of(scene_);
-    out_.link = model->node_label(model->reduction_node);
+    out_.link = name_of_link(*model);
     out_.mid_speed = options_.mid_speed;
     if (!out_.later.empty())
       out_.notes.push_back(out_.later);

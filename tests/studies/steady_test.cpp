@@ -595,5 +595,21 @@ TEST(Steady, WorksOfACycleAreWithinTheirErrors) {
   }
 }
 
+// A screw has one shaft, whose node is labelled "in" all the same; its figures are named after the component.
+TEST(Steady, OfALinkThatIsAScrew) {
+  const SteadyStudy s = steady(test::scene_from(R"(
+    line = ["screw", "motor"]
+    screw = { kind = "screw", lead = "10 mm" }
+    motor = { kind = "dc shunt motor", stall_torque = "100 N*m", no_load_speed = "100 rad/s", inertia = "1 kg*m2" }
+    load = { kind = "load", on = "motor", torque = "30 N*m" }
+    run = { until = "10 s" }
+  )"),
+                               {Effects{}}, {});
+  ASSERT_TRUE(s.complete) << s.conclusion;
+  EXPECT_EQ(s.link, "screw");
+  EXPECT_NEAR(value_of(s.cycles.back(), "mean_speed.screw"), 70, 1e-6);
+  EXPECT_NE(s.conclusion.find("mean speed 70 rad/s"), std::string::npos) << s.conclusion;
+}
+
 }  // namespace
 }  // namespace kurbel::test::steady_test
