@@ -122,8 +122,8 @@ std::string in_lines(const std::vector<std::string>& lines) {
   return lines.empty() ? "" : fmt::format("{}\n", fmt::join(lines, "\n"));
 }
 
-// Bad news first, as far as there is room; then whole sentences and the last, which answers the question. Those that find no
-// room are counted.
+// Bad news first, cut where there is no room for all of it; then whole sentences, and always the last, which answers the
+// question. Those that find no room are counted.
 std::vector<std::string> headline_of(const Findings& findings) {
   std::vector<std::vector<std::string>> sentences;
   std::size_t all = 0;
@@ -148,11 +148,14 @@ std::vector<std::string> headline_of(const Findings& findings) {
   const std::size_t bad = concluded(bad_news).size(), last = sentences.size() - 1,
                     answer = std::min<std::size_t>(sentences[last].size(), 2);
   std::size_t reported = 0;
-  for (bool cut = false; reported < last && !cut; ++reported) {
-    const std::size_t kept = lines.size() + 1 + (reported < bad ? 0 : answer), room = most - std::min(kept, most);
-    cut = sentences[reported].size() > room;
-    if (cut && (reported >= bad || room == 0)) break;
-    take(sentences[reported], room);
+  for (; reported < last; ++reported) {
+    const bool is_bad = reported < bad;
+    const std::size_t kept = lines.size() + answer + (is_bad && last == bad ? 0 : 1),
+                      room = most - std::min(kept, most);
+    const std::size_t others = is_bad ? std::min(bad - reported - 1, room) : 0;  // of which each has a line
+    const std::size_t own = is_bad && room > 0 ? std::max<std::size_t>(room - others, 1) : room;
+    if (sentences[reported].size() > own && (!is_bad || own == 0)) break;
+    take(sentences[reported], own);
   }
   const std::size_t room = most - lines.size();
   const bool has_answer = reported == last || room > answer;

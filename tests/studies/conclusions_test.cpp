@@ -159,13 +159,14 @@ TEST(Conclusion, IsShortenedBySentencesAndKeepsItsAnswer) {
   EXPECT_NE(text.find("The answer, "), std::string::npos) << text;
   EXPECT_TRUE(text.ends_with("screen.")) << text;
   EXPECT_EQ(text.find("…"), std::string::npos) << text;
-  // No bad news for the answer's sake.
+  // Bad news is cut for the answer's sake, and not left out.
   for (const auto& [what, begin] :
        {std::pair{Predicate::limit_exceeded, "a second excess, "}, std::pair{Predicate::stalls, "a stall, "}})
     add(f.claims, claimed(what, begin + filler, "part", {.value = 1.5, .limit = 1}));
   EXPECT_NE(headline_text(f).find("A stall, "), std::string::npos) << headline_text(f);
   EXPECT_NE(headline_text(f).find("A second excess, "), std::string::npos) << headline_text(f);
   const std::string worse = headline_text(f);
+  EXPECT_NE(worse.find("The answer, "), std::string::npos) << worse;
   EXPECT_LE(std::count(worse.begin(), worse.end(), '\n'), 5) << worse;
   // A sentence alone that is too long is cut between words.
   Findings one;
