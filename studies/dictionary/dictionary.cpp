@@ -8,6 +8,7 @@
 #include <span>
 #include <unordered_map>
 
+#include "engine/scene/text.h"
 #include "engine/scene/units.h"
 #include "studies/dictionary/own_entries.h"
 #include "studies/dictionary/page_words.h"
@@ -113,7 +114,13 @@ const Definition* find_symbol(std::string_view asked) {
   for (const bool starred : {false, true})
     for (const Definition& d : entries::of_symbols)
       if (has_star(d) == starred && fits(d.name, symbol)) return &d;
-  return symbol.size() == 1 && std::islower(static_cast<unsigned char>(symbol[0])) ? find_symbol("*′") : nullptr;
+  if (symbol.size() == 1 && std::islower(static_cast<unsigned char>(symbol[0]))) return find_symbol("*′");
+  const std::size_t index = symbol.find_first_of("0123456789");  // on paper it is lowered: "R12"
+  const bool has_index = index > 0 && index < symbol.size() && symbol.find('_') == std::string::npos &&
+                         symbol.find_first_not_of("0123456789", index) == std::string::npos;
+  return has_index && characters(symbol.substr(0, index)) == 1
+             ? find_symbol(symbol.substr(0, index) + "_" + symbol.substr(index))
+             : nullptr;
 }
 
 // What a page calls a figure.

@@ -41,7 +41,8 @@ inline constexpr PageWord of_pages[] = {
     {"measured", "run, steady, fit", "of a record from a test, as the file has it"},
     {"time; time [s]", of_all, "simulated time since the start of the run; of a processor it is in ms"},
     {"first at; last at; times; mean interval", "run, compare",
-     "of events of one kind in a run: when the first and the last of them was, how many there were, and the mean time from "
+     "of events of one kind in a run: when the first and the last of them was, how many there were, and the mean time "
+     "from "
      "one to the next"},
     {"at; at [s]; at [rpm]; at [mm]", of_all,
      "where the value beside it occurs: time, angle, speed, or distance along a guide, by the unit"},
@@ -152,6 +153,12 @@ inline constexpr PageWord of_pages[] = {
      "loads'"},
     {"ratio to the link; fastest; time to * of the steady speed", "steady, size",
      "of each shaft over the reduction link; a start of the rigid machine"},
+    {"slot: *; slot [N]; lever bearing*; block; pin; №", "forces, reduce",
+     "joints of a mechanism, and what acts in them: reactions in N, moments in N·m; №: number of the position"},
+    {"sliding speed; sliding speed [m/s]; boundary λ < 1; mixed λ < 3", "forces, gears",
+     "of one surface against the other; shares of the cycle with boundary and with mixed friction, by the film "
+     "parameter λ"},
+    {"absolute pressure; rocker speed", "run, compare", "pressure in a cylinder; speed of a rocking output"},
     // size
     {"by theory 3.1; against exact; flywheel sized by; cycles; punch-press form; motor's slope counted; neglecting "
      "I_em; Mertsalov; Wittenbauer; Wittenbauer (exact); rigid, work equation; sized, *; scene as it is, *",
@@ -160,7 +167,7 @@ inline constexpr PageWord of_pages[] = {
      "give"},
     {"tangent of slope ½ *; touching points; extremes, *; intercepts; ΔT over I_em; A", "size",
      "Wittenbauer's diagram and the works: tangents at greatest and least speed; extremes of the energy where M_d = "
-     "M_c"},
+     "M_c; on a sheet of a mechanism A is a pin"},
     {"material; outer diameter D; hub diameter D/5; breadth b; thickness of the rim h *; spokes (elliptical); mass of "
      "*; rim's share of the inertia; energy stored at ω_max; rim speed at ω_max; stress of a free rim ρ v²; stress "
      "with bending between spokes; safety against tensile strength; sum",
@@ -244,7 +251,7 @@ inline constexpr PageWord of_pages[] = {
      "power in a coupling's damping; cases of failure and what they change; sources and tolerances of the data"},
     // gears
     {"B; C; wheel 1; wheel 2; without shift, x = 0; of the wheels; of the mesh; symbol", "gears",
-     "data of wheel 1, of wheel 2, or of both in mesh"},
+     "data of wheel 1, of wheel 2, or of both in mesh; on a sheet of a mechanism B and C are pins"},
     {"g [mm]; place on the path of contact g; v_g/ω₁", "gears",
      "distance from the pitch point along the path of contact, and sliding there"},
     {"transverse tooth thickness s_t; tooth thickness *; on the working circle; at the tip, normal; the same, "
@@ -257,6 +264,7 @@ inline constexpr PageWord of_pages[] = {
      "gears", "dimensions of the wheels (theory 6)"},
     {"pressure angle; pressure angle, *; working pressure angle; base helix angle; overlap ratio; total contact ratio",
      "gears", "angles and contact ratios of the mesh (theory 6)"},
+    {"margin against tip fouling", "gears", "angle by which the tips of an internal pair pass each other"},
     {"backlash *; mesh stiffness *; stiffness of a pair *; torsional mesh stiffness *", "gears",
      "backlash along the circle, the normal or as an angle; stiffness of the teeth in contact (theory 6.13)"},
     {"along the reference circle; specific sliding ζ; from the wheel's axis; rack*; its datum line; flank of *; "

@@ -144,10 +144,10 @@ inline constexpr Definition of_a_cycle[] = {
      "a crank, 4π of a four-stroke engine",
      "T = Φ/ω_mean", "the time after which all repeats, where that takes several cycles: period"},
     {"period", "period of the motion", "s", "", "11.1", of_both,
-     "time after which all angles, speeds and times of the machine repeat: one cycle or several of them; in a run where "
+     "time after which all angles, speeds and times of the machine repeat: one cycle or several of them; in a run "
+     "where "
      "that takes several cycles, or is the period of laws over time. Figures of a cycle are then of the whole period",
-     "",
-     "the cycle of the reduction link alone: cycle_time"},
+     "", "the cycle of the reduction link alone: cycle_time"},
     {"vibration_frequency", "frequency of a vibration about a place", "Hz", "", "11.1", "steady, sweep, uncertainty",
      "of a machine whose reduction link does not turn on average but vibrates: how often its motion repeats", "f = 1/T",
      "a natural frequency, which is natural_frequency.N; the two agree where nothing excites and damping is small"},

@@ -196,7 +196,7 @@ Rows position_table(const Forces& f, const ForceCycle& c) {
     return std::abs(value) < 1e-9 * std::abs(peak) ? 0.0 : value;
   };
   table.only_for_people("φ [°]", [](P p) { return degrees(p.forces.state.phi); }, {.digits = 5})
-      .only_for_people("ω [rad/s]", [](P p) { return p.forces.state.omega; })
+      .only_for_people("ω [" + f.speed_unit.name + "]", [&f](P p) { return f.speed_unit.of(p.forces.state.omega); })
       .only_for_people("M [N·m]", [&, or_nothing](P p) { return or_nothing(p.forces.torque, c.torque.value); });
   const double largest = c.reactions.empty() ? c.shaking_force.value : heaviest(c)->peak.value;
   const std::vector<JointForces>& joints = c.rows.front().forces.joints;
@@ -235,14 +235,14 @@ Rows counterweight_table(const Forces& f) {
       .estimate("peak_main_bearing", "peak of main bearing [N]", &Counterweight::peak_bearing);
 }
 
-void say_links(Findings& to, Chapter in, const ForceCycle& c) {
-  using L = const LinkOfCycle&;
-  const auto reported = [](auto LinkOfCycle::*of) { return [of](L l) { return with_error(l.*of, ""); }; };
+void say_links(Findings& to, Chapter in, const Forces& f, const ForceCycle& c) {
+  const auto shown = [](auto LinkOfCycle::*of, double k = 1) {
+    return [=](const LinkOfCycle& l) { return with_error(k * (l.*of), ""); };
+  };
   const auto percent = [](auto LinkOfCycle::*of) {
-    return [of](L l) {
-      constexpr double least = 0.001;  // [%]
-      const Estimate share = 100.0 * (l.*of);
-      return share.value < std::max(least, share.error.value_or(0)) ? std::string("0")
+    return [of](const LinkOfCycle& l) {
+      const Estimate share = 100.0 * (l.*of);  // [%]
+      return share.value < std::max(0.001, share.error.value_or(0)) ? std::string("0")
                                                                     : fmt::format("{:.4g}", share.value);
     };
   };
@@ -251,21 +251,21 @@ void say_links(Findings& to, Chapter in, const ForceCycle& c) {
                  .text_in(0)
                  .always()
                  .only_for_people("link", &LinkOfCycle::name)
-                 .only_for_people("ω [rad/s]", reported(&LinkOfCycle::omega))
-                 .only_for_people("ε [rad/s²]", reported(&LinkOfCycle::alpha))
-                 .only_for_people("m a [N]", reported(&LinkOfCycle::inertia_force))
-                 .only_for_people("at", [](L l) { return at_angle(l.inertia_force); })
-                 .only_for_people("−I ε [N·m]", reported(&LinkOfCycle::inertia_couple)));
+                 .only_for_people("ω [" + f.speed_unit.name + "]", shown(&LinkOfCycle::omega, f.speed_unit.of(1)))
+                 .only_for_people("ε [rad/s²]", shown(&LinkOfCycle::alpha))
+                 .only_for_people("m a [N]", shown(&LinkOfCycle::inertia_force))
+                 .only_for_people("at", [](const LinkOfCycle& l) { return at_angle(l.inertia_force); })
+                 .only_for_people("−I ε [N·m]", shown(&LinkOfCycle::inertia_couple)));
   to.say(in, table_of("", "Shares of the links in the reduced inertia and the kinetic energy", c.links)
                  .not_on_terminal()
                  .text_in(0)
                  .always()
                  .only_for_people("link", &LinkOfCycle::name)
-                 .only_for_people("I_r [kg·m²]", reported(&LinkOfCycle::reduced_inertia))
+                 .only_for_people("I_r [kg·m²]", shown(&LinkOfCycle::reduced_inertia))
                  .only_for_people("of I_r [%]", percent(&LinkOfCycle::inertia_share))
                  .only_for_people("least [%]", percent(&LinkOfCycle::least_share))
                  .only_for_people("most [%]", percent(&LinkOfCycle::greatest_share))
-                 .only_for_people("T [J]", reported(&LinkOfCycle::energy))
+                 .only_for_people("T [J]", shown(&LinkOfCycle::energy))
                  .only_for_people("of T [%]", percent(&LinkOfCycle::energy_share)));
   to.draw(in, [&c] { return link_plots(c); });
 }
@@ -432,13 +432,13 @@ Findings findings_of(const Forces& f) {
         polar,
         Text{.title = "",
              .body = "The curve joins the tips of the load vector. It shows where shell and housing are pressed or, "
-                     "in axes of a link, its pin or bore; no oil hole belongs where it presses."});
+                     "in axes of a link, its pin or bore; place no oil hole there."});
   to.draw(polar, [&f] { return polar_plots(f); });
   say_positions(to, positions, f);
   say_work(to, work, f);
   say_films(to, work, f);
   say_shaking(to, shaking, f);
-  say_links(to, links, front);
+  say_links(to, links, f, front);
   to.record("links", links_list(front));
   std::vector<std::string> remarks = f.about;
   remarks.insert(remarks.end(), f.notes.begin(), f.notes.end());

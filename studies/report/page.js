@@ -44,9 +44,11 @@
   // Names of the legend stand in columns that are as wide as the longest; one that is wider than the page is broken.
   const nameLetters = plot => (widthOf(plot) - 45) / 6.5;
   function legendRows(plot) {
-    const names = plot.series.filter(isTold).map(s => s.name.length);
-    const columns = Math.max(1, Math.floor(widthOf(plot) / (6.5 * Math.max(...names, 1) + 45)));
-    return Math.max(1, Math.ceil(names.length / columns));
+    const names = plot.series.filter(isTold).map(s => broken(s.name, nameLetters(plot)).split('\n'));
+    const longest = Math.max(...names.flat().map(line => line.length), 1);
+    const columns = Math.max(1, Math.floor(widthOf(plot) / (6.5 * longest + 45)));
+    const lines = Math.max(...names.map(name => name.length), 1);  // a row is as high as its highest name
+    return Math.max(1, columns === 1 ? names.flat().length : Math.ceil(names.length / columns) * lines);
   }
 
   // A curve that comes back on itself, such as a polar diagram, is read point by point; a crank that swings back a little is none.

@@ -65,8 +65,7 @@ void collect(const std::string& command, Reported& reported) {
     for (const Json& card : section["cards"]) {
       for (const std::string heading : card.value("columns", Json::array())) {
         meet(heading);
-        if (!in_radians && heading.ends_with(" [rad/s]") && !heading.starts_with("ω"))
-          reported.in_radians.insert(command + ": " + heading);
+        if (!in_radians && heading.ends_with(" [rad/s]")) reported.in_radians.insert(command + ": " + heading);
       }
       for (const Json& row : card.value("rows", Json::array()))
         for (const Json& cell : row)
@@ -94,6 +93,8 @@ TEST(ExplainedNames, OfTablesAndPlotsOfAllCommands) {
         "forces scenes/single_cylinder_engine.toml",
         "forces scenes/four_bar_rocker.toml",
         "forces scenes/six_link_press.toml",
+        "forces scenes/shaper.toml",
+        "run scenes/compressor.toml",
         "modes docs/tasks/two_cylinder_compressor.toml",
         "modes scenes/crank_press.toml --torque main_coupling",
         "gears scenes/gear_pair.toml",

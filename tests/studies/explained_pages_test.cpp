@@ -121,6 +121,9 @@ TEST(ExplainedPages, SymbolsAreDefinedOnceAndWhole) {
   }
   for (const entries::Label& l : entries::labels) EXPECT_TRUE(definition_of(l.name)) << l.name;
   EXPECT_EQ(meant_by("R_12")->name, "R_*");
+  EXPECT_EQ(meant_by("R12")->name, "R_*");
+  EXPECT_EQ(meant_by("S2")->name, "S_*");
+  for (const char* known : {"O", "OA", "AB", "№", "aᶜ", "aʳ", "e⁻", "ω2"}) EXPECT_TRUE(meant_by(known)) << known;
   EXPECT_EQ(meant_by("I₀")->name, "I_0");
   EXPECT_EQ(meant_by("peak torque, main_coupling")->name, "peak_torque");
   EXPECT_EQ(meant_by("largest slot: block on lever, moment")->name, "reaction_moment");
