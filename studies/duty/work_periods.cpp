@@ -53,7 +53,8 @@ double WorkPeriod::residual() const {
 
 std::optional<double> efficiency_of(double driving, double useful, double weight, double energy) {
   const double spent = driving + weight - energy;
-  if (!(spent > 0) || !(useful < 0)) return {};
+  constexpr double rounding = 1e-9;  // of what is spent
+  if (!(spent > 0) || !(-useful > rounding * spent)) return {};
   return -useful / spent;
 }
 

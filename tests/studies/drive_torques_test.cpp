@@ -136,6 +136,7 @@ TEST(Efficiency, CountsTheChangeOfStoredEnergy) {
   EXPECT_NEAR(*efficiency_of(200, -80, 0, 100), 0.8, 1e-15);
   EXPECT_NEAR(*efficiency_of(0, -60, 100, 0), 0.6, 1e-15);
   EXPECT_FALSE(efficiency_of(100, 0, 0, 0));
+  EXPECT_FALSE(efficiency_of(100, -1e-10, 0, 0)) << "rounding is no useful work";
   EXPECT_FALSE(efficiency_of(50, -10, 0, 60));
 
   const Result r = test::run(test::scene_file("tests/cases/reports/motor_switched_off.toml"), false);
