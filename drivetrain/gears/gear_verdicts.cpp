@@ -45,7 +45,7 @@ class Verdicts {
       add(Finding::warning, "ε_α = {:.4f} < 1: only the overlap ε_β = {:.4f} keeps the wheels in mesh.", e,
           p_.overlap_ratio);
     else if (e < 1.2)
-      add(Finding::warning, "Contact ratio ε_α = {:.4f}; at least 1.2 is customary.", e);
+      add(Finding::warning, "Contact ratio ε_α = {:.4g}; at least 1.2 is customary.", e);
     if (p_.data.helix != 0 && p_.overlap_ratio > 0 && p_.overlap_ratio < 1)
       add(Finding::note, "Overlap ε_β = {:.3f} < 1: a width of {:.1f} mm would make it 1.", p_.overlap_ratio,
           mm *

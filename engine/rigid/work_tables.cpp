@@ -25,8 +25,8 @@ std::string WorkTables::refusal(const std::shared_ptr<const Model>& model) {
         "the {} of \"{}\" is a state besides angle and speed; switch that effect off or choose another method",
         model->internal_states.front().state.name, model->internal_states.front().component);
   if (!model->scene.sequence.steps.empty())
-    return "the operating sequence switches at times or events, which over the angle nobody knows beforehand; choose "
-           "another method";
+    return "the operating sequence switches at times or events, which are not known over the angle; choose another "
+           "method";
   for (const Network::ShaftElement& e : model->network.elements)
     if (std::isinf(e.element->cycle))
       return fmt::format("the crank of \"{}\" rocks and never turns fully; choose another method", e.component);
@@ -34,12 +34,12 @@ std::string WorkTables::refusal(const std::shared_ptr<const Model>& model) {
   for (const Network::ShaftElement& e : model->network.elements)
     if (e.element->uses_time || e.window.start > Window{}.start || e.window.stop < Window{}.stop)
       return fmt::format(
-          "the torque of \"{}\" depends on time, and over the angle nobody knows the time of an edge; choose another "
+          "the torque of \"{}\" depends on time, and over the angle the times of edges are not known; choose another "
           "method",
           e.component);
   for (const auto& pool : model->pools)
     if (pool->reacts())
-      return "joint friction depends on the acceleration, and its kinks lie at angles that nobody knows beforehand; "
+      return "joint friction depends on the acceleration, and its kinks lie at angles that are not known beforehand; "
              "choose another method";
   if (!machine.edges_are_of_angle())
     return "a torque given as a table over speed changes its piece at speeds, not at angles; choose another method";

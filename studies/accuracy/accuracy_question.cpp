@@ -55,8 +55,7 @@ OptionsOf<AccuracyOptions> options() {
             .domain = {.low = 1e-12, .high = 0.01},
             .words = true},
            &Asked::tolerances)
-      .add({.name = "no_multibody", .doc = "leave Simbody's closed loop out, which takes longest"}, &Asked::multibody,
-           false)
+      .add({.name = "no_multibody", .doc = "omit Simbody's closed loop, the slowest model"}, &Asked::multibody, false)
       .add({.name = "time",
             .doc = "processor time that the study may take, about (default: 60 s)",
             .example = "60 s",

@@ -33,7 +33,7 @@ Question difference_question() {
        .help = "two machines figure by figure, and what differs in their scenes",
        .does = "puts the same question (`--of`) to two scenes, or to one with other values (`--other-set`): every "
                "figure of both with its error, whether they differ by more than that, and the keys that differ",
-       .more = {"a.toml a.toml --other-set \"main_coupling.stiffness=1 MN*m/rad\" | what one value does"}},
+       .more = {"a.toml a.toml --other-set \"main_coupling.stiffness=1 MN*m/rad\" | the effect of one value"}},
       OptionsOf<DifferenceRequest>()
           .add({.name = "other", .doc = "scene file of the other machine", .by_place = true}, &DifferenceRequest::other)
           .add({.name = "other_set",

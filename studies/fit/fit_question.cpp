@@ -178,8 +178,9 @@ OptionsOf<FitRequest> options() {
             record);
   texts("orders", &FitRequest::orders,
         "orders of the reduction link's turns that are compared, 0.5,1.5,2.5 (default: all points)" + record);
-  texts("window", &FitRequest::window, "a point is the mean over so much, \"12 deg\", \"1 ms\"" + record);
-  texts("cycles", &FitRequest::cycles, "that a mean with a scatter is of (default: 1)" + record);
+  texts("window", &FitRequest::window, "width over which each point is averaged, \"12 deg\", \"1 ms\"" + record);
+  texts("cycles", &FitRequest::cycles,
+        "number of cycles from which mean and scatter were formed (default: 1)" + record);
   texts("teeth", &FitRequest::teeth,
         "the mapped column holds the times at which an encoder's teeth pass: pitches of a turn less the missing teeth, "
         "60-2" +

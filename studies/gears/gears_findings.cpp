@@ -27,7 +27,7 @@ std::string shape_of(const GearPair& p) {
 
 std::string summary_of(const GearStage& s) {
   const GearPair& p = s.pair;
-  std::string text = fmt::format("{}: {} {}/{}, m_n = {:g} mm, ε_α = {:.3f}", s.name, shape_of(p), p.data.teeth[0],
+  std::string text = fmt::format("{}: {} {}/{}, m_n = {:g} mm, ε_α = {:.4g}", s.name, shape_of(p), p.data.teeth[0],
                                  p.data.teeth[1], in_millimetres * p.data.module, p.contact_ratio);
   if (p.overlap_ratio > 0) text += fmt::format(", ε_β = {:.3f}", p.overlap_ratio);
   const Finding worst = worst_of(s);

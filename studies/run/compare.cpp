@@ -141,7 +141,7 @@ void conclude(Comparison& c) {
     if (row.b->value >= stands_within_the_cycle) continue;
     const char* what = repeats ? "δ" : "the fluctuation in the last cycle, which is not steady,";
     c.conclusion += (c.conclusion.empty() ? "" : "; ") +
-                    (*row.ratio > 2 ? fmt::format("{} is {:.3g} × as great", what, *row.ratio)
+                    (*row.ratio > 2 ? fmt::format("{} is {:.3g} × that of the {} model", what, *row.ratio, c.a.label)
                                     : fmt::format("{} changes by {:+.2g} %", what, 100 * (*row.ratio - 1)));
   }
   if (c.conclusion.empty()) c.conclusion = "The two models have no coupling's torque and no cycle in common to compare";

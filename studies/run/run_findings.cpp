@@ -195,7 +195,8 @@ Brief brief_of(const Result& r) {
   if (has_works(r)) sure += "; " + reported(r.energy);
   brief.words = {std::move(sure)};
   if (all > chosen.size())
-    brief.more = fmt::format("{} more figures, works, periods, cost: --all, or the report", all - chosen.size());
+    brief.more = fmt::format("{} more figure{}, works, periods, cost: --all, or the report", all - chosen.size(),
+                             all - chosen.size() == 1 ? "" : "s");
   return brief;
 }
 

@@ -32,7 +32,8 @@ OptionsOf<SweepRequest> sweep_options() {
             .words = true},
            &SweepRequest::figures)
       .add({.name = "limit",
-            .doc = "\"delta.press <= 0.05\": counted, drawn, and how sure; repeatable",
+            .doc =
+                "\"delta.press <= 0.05\": share of variants within the limit, with its confidence interval; repeatable",
             .each_time = true},
            &SweepRequest::limits)
       .add(machine_options(), &SweepRequest::machine)
@@ -53,7 +54,7 @@ OptionsOf<SweepRequest> sweep_options() {
             .doc = "of random, lhs, and the shift of sobol (default: 1; 0: sobol as published)",
             .domain = {.low = 0, .high = 9007199254740992}},
            &SweepRequest::seed)
-      .add({.name = "xlsx", .doc = "writes the variants as a spread sheet, too"}, &SweepRequest::xlsx);
+      .add({.name = "xlsx", .doc = "writes the variants as a spreadsheet, too"}, &SweepRequest::xlsx);
 }
 
 // As the database records it.

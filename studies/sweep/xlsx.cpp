@@ -1,4 +1,4 @@
-// xlsx.cpp — a sweep as a spread sheet.
+// xlsx.cpp — a sweep as a spreadsheet.
 #include <fmt/format.h>
 
 #include <stdexcept>

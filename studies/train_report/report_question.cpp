@@ -180,7 +180,7 @@ class TrainReport {
     else if (asked_.cases.size() == 1 && asked_.cases.front() == "none")
       lines.push_back("the scene's cases of failure: omitted by --cases");
     if (tolerances_of(scene.text, scene.file).empty())
-      lines.push_back("what tolerances do to the margins: the scene gives none");
+      lines.push_back("the influence of tolerances on the margins: the scene gives none");
     std::vector<std::string> omitted;
     for (std::size_t s = 0; s < section_names.size(); ++s)
       if (!wanted_[s]) omitted.emplace_back(section_names[s].word);
@@ -290,8 +290,9 @@ Question report_question() {
        .help = "one document for a drive train: data, modes, margins, response, starts, what was not assessed",
        .does = "one document for a drive train, to be handed over: scope, verdict and what was not assessed on its "
                "first page; mass–elastic data; modes; margins; forced response with the scene's cases; starts and "
-               "stops; assumptions; the input. Of what `modes` and `compare` say, each asked once; `report.html` "
-               "prints to A4, `report.md` and `summary.json` are of the same document"},
+               "stops; assumptions; the input. It uses the results of `modes` and `compare`, each computed once. "
+               "`report.html` "
+               "prints to A4, `report.md` and `summary.json` contain the same document"},
       OptionsOf<ReportRequest>()
           .add({.name = "cases",
                 .doc = "names of the scene's [[case]]s to compute; none: no case (default: all)",

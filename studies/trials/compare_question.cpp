@@ -43,7 +43,7 @@ const OptionsOf<RunRequest>& run_options() {
                false)
           .add({.name = "no_trials",
                 .doc = "skip the runs of the rigid machine and those that try, one by one, the effects that are off "
-                       "(made behind short runs only)"},
+                       "(made after short runs only)"},
                &RunRequest::trials, false);
   return made;
 }

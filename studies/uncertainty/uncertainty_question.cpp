@@ -1,4 +1,4 @@
-// uncertainty_question.cpp — kurbel uncertainty: what tolerances make of the figures.
+// uncertainty_question.cpp — kurbel uncertainty: spread of the figures by the tolerances of a scene.
 #include "studies/question/question.h"
 #include "studies/uncertainty/uncertainty.h"
 #include "studies/variants/in_threads.h"
@@ -46,15 +46,15 @@ OptionsOf<UncertaintyRequest> options() {
 }  // namespace
 
 Question uncertainty_question() {
-  return make_question(
-      {.place = 116,
-       .name = "uncertainty",
-       .arguments = "scene.toml --limit \"delta.press <= 0.05\"",
-       .help = "spread of the figures by the tolerances of a scene, and which tolerance matters",
-       .does = "what tolerances that the scene gives (`stiffness = { value = \"900 kN*m/rad\", tolerance = \"10 "
-               "%\", distribution = \"normal\", k = 2 }`) make of the figures, by gradients and by samples; how "
-               "surely limits hold; which tolerance matters; numerical errors and known biases apart"},
-      options(), uncertain);
+  return make_question({.place = 116,
+                        .name = "uncertainty",
+                        .arguments = "scene.toml --limit \"delta.press <= 0.05\"",
+                        .help = "spread of the figures by the tolerances of a scene, and which tolerance matters",
+                        .does = "spread of the figures by the tolerances that the scene gives (`stiffness = { value = "
+                                "\"900 kN*m/rad\", tolerance = \"10 "
+                                "%\", distribution = \"normal\", k = 2 }`), by gradients and by samples; probability "
+                                "that limits hold; which tolerance matters; numerical errors and known biases apart"},
+                       options(), uncertain);
 }
 
 }  // namespace kurbel

@@ -53,7 +53,7 @@ OptionsOf<MachineRequest> machine_options() {
       .add({.name = "of", .doc = "run (default), steady, modes or size"}, &MachineRequest::of)
       .add({.name = "delta", .doc = "demanded δ, of --of size", .example = "0.05", .what = "a plain number"},
            &MachineRequest::delta)
-      .add({.name = "no_error", .doc = "skip the runs that measure errors: figures count as exact then"},
+      .add({.name = "no_error", .doc = "skip the runs that measure errors: figures are then taken as exact"},
            &MachineRequest::measure_error, false);
 }
 
