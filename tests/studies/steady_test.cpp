@@ -608,7 +608,7 @@ TEST(Steady, OfALinkThatIsAScrew) {
   ASSERT_TRUE(s.complete) << s.conclusion;
   EXPECT_EQ(s.link, "screw");
   EXPECT_NEAR(value_of(s.cycles.back(), "mean_speed.screw"), 70, 1e-6);
-  EXPECT_NE(s.conclusion.find("mean speed 70 rad/s"), std::string::npos) << s.conclusion;
+  EXPECT_NE(s.conclusion.find("mean speed 70"), std::string::npos) << s.conclusion;
 }
 
 }  // namespace
