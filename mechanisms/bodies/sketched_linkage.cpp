@@ -2,6 +2,7 @@
 #include "mechanisms/bodies/sketched_linkage.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace kurbel {
 
@@ -45,6 +46,27 @@ PlanarLinkage linkage_in(const LinkPoses& poses, const LinkageData& data) {
   return l;
 }
 
+// By the mean of |x′|, which positions that are rounded leave where x is constant.
+template <class Data>
+std::optional<long double> rest_of(const Data& data) {
+  constexpr int angles = 16;
+  constexpr long double rounding = 1e-12L;
+  const Linkage& linkage = *data.linkage;
+  const auto& arc = linkage.arc();
+  long double moved = 0, size = 0;
+  for (int i = 0; i < angles; ++i) {
+    const long double part = 2 * std::acos(-1.0L) * (i + 0.5L) / angles;
+    const PlanarLinkage at =
+        linkage_of(data, arc ? arc->middle + arc->reach() * std::cos(part) : linkage.turns() * part);
+    moved += std::fabs(at.output[1]) / angles;
+    for (const PlanarLinkage::Joint& j : at.joints) size = std::max(size, std::hypot(j.at.x.value(), j.at.y.value()));
+    if (at.rocks) size = 1;
+  }
+  if (!(moved <= rounding * size)) return {};
+  const long double x = linkage_of(data, linkage.drawn_at()).output[0];
+  return std::fabs(x) <= rounding * size ? 0 : x;
+}
+
 }  // namespace
 
 PlanarLinkage linkage_of(const LinkageData& data, long double phi) {
@@ -67,5 +89,8 @@ PlanarLinkage linkage_of(const LinkageTravelData& data, long double phi) {
   l.output[0] = s.value(), l.output[1] = s.slope(), l.output[2] = s.curvature();
   return l;
 }
+
+std::optional<long double> stands_at(const LinkageData& data) { return rest_of(data); }
+std::optional<long double> stands_at(const LinkageTravelData& data) { return rest_of(data); }
 
 }  // namespace kurbel

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "mechanisms/linkage/linkage.h"
@@ -24,6 +25,10 @@ std::vector<PlanePoint> places_of(const LinkageData& data, double phi);
 // A travel within the linkage: the same bodies without mass, with the travel as their output.
 PlanarLinkage linkage_of(const LinkageTravelData& data, long double phi);
 LinkageDrawing drawing_of(const LinkageTravelData& data);
+// Where the output stands still [m] or [rad], of a path 0: over a cycle it moves by no more than rounding of the linkage's
+// size, or of a radian. Empty: it moves.
+std::optional<long double> stands_at(const LinkageData& data);
+std::optional<long double> stands_at(const LinkageTravelData& data);
 // Its samples contain the travel by Simbody's positions, velocities and accelerations; all other members are 0.
 std::unique_ptr<MechanismBodies> own_bodies(const LinkageTravelData& data);
 

@@ -29,7 +29,8 @@ BodiesOf bodies_with_ends(const LinkageTravelData& data) {
 
 class TravelBodies final : public MechanismBodies {
  public:
-  explicit TravelBodies(const LinkageTravelData& data) : data_(data), whole_(make_bodies(bodies_with_ends(data))) {
+  explicit TravelBodies(const LinkageTravelData& data)
+      : data_(data), whole_(make_bodies(bodies_with_ends(data))), stands_at_(kurbel::stands_at(data)) {
     whole_->sample(double(data.linkage->drawn_at()));
     in_sketch_ = relative_rotation();
   }
@@ -53,6 +54,10 @@ class TravelBodies final : public MechanismBodies {
     ReducedSample sample{};
     sample.closure_determinant = whole.closure_determinant;
     double &s = sample.output_position, &s1 = sample.output_velocity_ratio, &s2 = sample.output_acceleration_ratio;
+    if (stands_at_) {
+      s = double(*stands_at_);
+      return sample;
+    }
     const std::vector<TrackedMotion> ends = whole_->tracked();
     const TrackedMotion &from = ends[0], &to = ends[1];
     const Planar<double>&v = to.velocity_ratio, &a = to.acceleration_ratio;
@@ -82,6 +87,7 @@ class TravelBodies final : public MechanismBodies {
 
   LinkageTravelData data_;
   std::unique_ptr<MechanismBodies> whole_;
+  std::optional<long double> stands_at_;
   double in_sketch_ = 0;  // the relative rotation there [rad]
 };
 

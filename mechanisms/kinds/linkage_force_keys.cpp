@@ -287,10 +287,15 @@ class LinkageForceBuilder {
 
   template <class K, class M, class Laws>
   void put(const K& k, M member, const LinkageTravel& travel, const Laws& laws) {
-    if (const std::string fault = fault_of(*linkage_, travel); !fault.empty()) return void(k.refuse(member, fault));
+    if constexpr (has_bodies)  // an exported component's scene was examined before
+      if (const std::string fault = fault_of(*linkage_, travel); !fault.empty()) return void(k.refuse(member, fault));
     std::string fault;
     std::optional<Mechanism> mechanism = tabulated(k.section().name, travel, fault);
     if (mechanism && !laws(*mechanism)) return;
+    const auto over_travel = [](const SliderLoad& load) { return load.has_pieces() && load.period() == 0; };
+    if (mechanism && mechanism->stands_still() &&
+        std::any_of(mechanism->loads.begin(), mechanism->loads.end(), over_travel))
+      fault = "its travel is constant, so that a law over it has only one value; give that as kind = \"constant\"";
     if (mechanism && mechanism->loads.empty()) fault = "has no law; give it one, or leave it out";
     if (!fault.empty()) return void(k.refuse(fault));
     made.push_back(std::move(*mechanism));

@@ -146,10 +146,11 @@ void build_mechanism(const Section& s, const MechanismData& data, const Mounting
                                          s.kind->name, s.name, masses));
     return;
   }
-  if (mechanism->stroke() == 0 && !mounting.loads.empty()) {
-    messages.add(s.where("load"), fmt::format("{} \"{}\": load: its output stands still on this branch, so that no "
-                                              "load on it does work; leave the load out, or choose the other branch",
-                                              s.kind->name, s.name));
+  if (mechanism->stands_still() && !mounting.loads.empty()) {
+    const char* const key = s.has("load") ? "load" : "torque";
+    messages.add(s.where(key), fmt::format("{} \"{}\": {}: its output stands still on this branch, so that no load on "
+                                           "it does work; leave the load out, or choose another branch or output",
+                                           s.kind->name, s.name, key));
     return;
   }
   mechanism->phase = mounting.phase;

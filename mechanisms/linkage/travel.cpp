@@ -119,7 +119,7 @@ std::vector<TravelAction> travel_actions(const Linkage& l, const LinkPoses& pose
 }
 
 std::string fault_of(const Linkage& l, const LinkageTravel& travel) {
-  constexpr long double least = 1e-6L;  // of the greatest
+  constexpr long double least = 1e-6L, rounding = 1e-12L;  // of the greatest, of the size
   const auto degrees = [](long double phi) { return static_cast<double>(phi * 180 / std::acos(-1.0L)); };
   if (travel.of == Of::distance) {
     const LeastOfCycle d =
@@ -135,6 +135,8 @@ std::string fault_of(const Linkage& l, const LinkageTravel& travel) {
       const Path rate = rate_of(place_of(l, l.poses(phi), travel.to));
       return sqrt(Taylor(dot(rate, rate).value())).value();
     });
+    if (v.greatest <= rounding * length(l.spot_of(travel.to.point)))
+      return "its point stands still, so that its path has no direction; take another point";
     if (v.least < least * v.greatest)
       return fmt::format(
           "its point stands still at φ = {:.4g}°, where its path has a cusp and no direction; take another point, or "

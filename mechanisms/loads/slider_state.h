@@ -5,13 +5,16 @@
 
 namespace kurbel {
 
+// Sign of a speed: 0 of an output that stands still.
+inline int direction_of(double v) { return (v > 0) - (v < 0); }
+
 // Motion of the slider for its loads.
 template <class T>
 struct SliderState {
   T phi;           // crank angle [rad]
   T x;             // position of the output [m]
   T v;             // speed [m/s]
-  int travel = 0;  // sign of v, fixed between events; 0 = crank at standstill
+  int travel = 0;  // sign of v, fixed between events; 0: it stands still
   int mode = 0;    // piece of the load's law, fixed between events
 };
 

@@ -140,7 +140,8 @@ bool has_tables(const Network& network) {
 }
 
 bool Mechanism::watches_travel() const {
-  return std::any_of(loads.begin(), loads.end(), [](const SliderLoad& l) { return l.depends_on_travel(); });
+  return !stands_still() &&
+         std::any_of(loads.begin(), loads.end(), [](const SliderLoad& l) { return l.depends_on_travel(); });
 }
 
 int Mechanism::growth(double angle, int direction) const {
@@ -155,7 +156,7 @@ double Mechanism::load(double angle, double speed, const std::vector<bool>& acti
   const auto [x, ratio] = reduced->at(angle).output_position();
   const int direction = speed > 0 ? 1 : speed < 0 ? -1 : 0;
   SliderState<double> s{angle, x, ratio * speed, 0, 0};
-  s.travel = watches_travel() ? growth(angle, direction) * direction : (s.v >= 0 ? 1 : -1);
+  s.travel = watches_travel() ? growth(angle, direction) * direction : direction_of(s.v);
   double sum = 0;
   for (std::size_t k = 0; k < loads.size(); ++k) {
     if (!acting.empty() && !acting[k]) continue;

@@ -62,6 +62,7 @@ struct Mechanism {
   bool is_force() const { return data.is_travel(); }
   bool has_weight() const;
   double stroke() const { return travel.greatest - travel.least; }
+  bool stands_still() const { return stroke() == 0 && travel.winding == 0; }  // of a path it is not known
   // Scale of x′: half the stroke; 1 if the output turns fully or never moves.
   double output_scale() const { return travel.winding != 0 || stroke() == 0 ? 1 : 0.5 * stroke(); }
   double cycle() const { return reduced->cycle().angle(); }  // crank angle of a cycle [rad]

@@ -32,6 +32,15 @@ class LateBodies final : public MechanismBodies {
 
 }  // namespace
 
+MechanismData::LinkageAt MechanismData::standing(LinkageAt moving, long double x) {
+  return [moving = std::move(moving), x](long double phi) {
+    PlanarLinkage l = moving(phi);
+    l.stands_still = true;
+    l.output[0] = x, l.output[1] = l.output[2] = 0;
+    return l;
+  };
+}
+
 std::vector<PlanePoint> MechanismData::places(double phi) const {
   if (held_->places) return held_->places(phi);
   const PlanarLinkage l = linkage(phi);

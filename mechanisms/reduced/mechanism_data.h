@@ -13,6 +13,7 @@
 //     std::string locks_of(const D&);                           what happens at their ends, in words
 //     int turns_of(const D&);                                   of the crank until the links come back without change points
 //     double drawn_at(const D&);                                φ of a position in which its lengths are exact
+//     std::optional<long double> stands_at(const D&);           where its output stands still but for rounding
 //     std::string undetermined_reactions(const D&);             why reactions are undetermined; empty: they are not
 // and, if its joints are unknown or its output is not on one of its bodies, instead of the general Simbody model
 //     std::unique_ptr<MechanismBodies> own_bodies(const D&);
@@ -54,6 +55,8 @@ class MechanismData {
     held.drawing = drawing_of(*d);
     held.gravity = d->gravity;
     held.linkage = [d](long double phi) { return linkage_of(*d, phi); };
+    if constexpr (has_bodies && requires { stands_at(*d); })
+      if (const auto x = stands_at(*d)) held.linkage = standing(std::move(held.linkage), *x);
     if constexpr (requires { faults_of(*d); }) held.faults = [d] { return faults_of(*d); };
     if constexpr (requires { places_of(*d, 0.0); }) held.places = [d](double phi) { return places_of(*d, phi); };
     if constexpr (has_bodies && requires { own_bodies(*d); }) held.own_bodies = [d] { return own_bodies(*d); };
@@ -91,13 +94,15 @@ class MechanismData {
   std::unique_ptr<MechanismBodies> make_bodies() const;
 
  private:
+  using LinkageAt = std::function<PlanarLinkage(long double)>;
+  static LinkageAt standing(LinkageAt moving, long double x);
   struct Held {
     explicit Held(std::type_index of) : kind(of) {}
     std::type_index kind;
     std::vector<double> values;
     LinkageDrawing drawing;
     double gravity = 0;
-    std::function<PlanarLinkage(long double)> linkage;
+    LinkageAt linkage;
     std::function<DataFaults()> faults;
     std::function<std::vector<PlanePoint>(double)> places;
     std::function<std::unique_ptr<MechanismBodies>()> own_bodies;

@@ -56,7 +56,7 @@ SliderState<double> MechanismPool::slider(const Placed& p, const Instant& now, s
   const double phi = angle_of(p.at, now), omega = p.at.gain * now.speed[p.at.shaft];
   const auto here = p.mechanism.reduced->at(phi);
   const auto [x, ratio] = here.output_position();
-  const int travel = p.watches_travel ? now.mode[p.at.mode] * p.at.direction(now) : (ratio * omega >= 0 ? 1 : -1);
+  const int travel = p.watches_travel ? now.mode[p.at.mode] * p.at.direction(now) : direction_of(ratio * omega);
   return {phi, x, ratio * omega, travel, now.mode[p.at.mode + 1 + static_cast<int>(load)]};
 }
 
@@ -121,7 +121,7 @@ void MechanismPool::add(const Instant& now, Sums& sums) const {
     if (is_loaded(p, now)) {
       const double x = here.position, ratio = here.ratio;
       SliderState<double> s{phi, x, ratio * omega, 0, 0};
-      s.travel = p.watches_travel ? now.mode[p.at.mode] * p.at.direction(now) : (s.v >= 0 ? 1 : -1);
+      s.travel = p.watches_travel ? now.mode[p.at.mode] * p.at.direction(now) : direction_of(s.v);
       for (std::size_t k = 0; k < p.mechanism.loads.size(); ++k) {
         if (!acts(p.at, now, k)) continue;
         s.mode = now.mode[p.at.mode + 1 + static_cast<int>(k)];
