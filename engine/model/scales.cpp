@@ -17,6 +17,8 @@ struct Size {
   double torque = 0;            // the largest that drives [N·m]
   double resisting = 0;         // the largest of the others [N·m]
   double inertia = 0;           // of all [kg·m²]
+  double mechanisms = 0;        // their mean inertia [kg·m²]
+  double varying = 0;           // what they have of it beyond their least [kg·m²]
   void reaches(double given) {  // a speed
     speed = std::max(speed, std::abs(given));
   }
@@ -33,6 +35,8 @@ Size rated_size(const Model& m) {
     double& sum = e.element->account == Account::driving ? size.torque : size.resisting;
     sum = std::max(sum, std::abs(rated.torque) * ratio);
     size.inertia += e.element->mean_inertia * ratio * ratio;
+    size.mechanisms += e.element->mean_inertia * ratio * ratio;
+    size.varying += (e.element->mean_inertia - e.element->least_inertia) * ratio * ratio;
   }
   return size;
 }
@@ -93,6 +97,14 @@ void find_scales(Compilation& c) {
   if (torque == 0) torque = size.resisting;  // nothing drives: the loads set the scale
   if (speed == 0 && torque > 0) speed = std::sqrt(2 * torque * 2 * std::numbers::pi / size.inertia);  // after one turn
   if (speed == 0) speed = 1;
+  // Where nothing has a rated torque, a prescribed motion turns inertia that varies, too, however small the loads, and no
+  // torque is smaller than its rounding.
+  constexpr double least = 1e-6;  // of the inertia's
+  const double varying = std::max(size.varying, least * size.mechanisms);
+  const auto moves = [](const PrescribedSpeed& given) { return !given.is_nothing(); };
+  if (size.torque == 0 && std::any_of(m.network.prescribed.begin(), m.network.prescribed.end(), moves) &&
+      (torque > 0 || size.varying == varying))
+    torque = std::max(torque, varying * speed * speed);
   if (torque == 0) torque = 0.5 * size.inertia * speed * speed;  // kinetic energy per radian
   if (torque == 0) torque = torque_of_a_small_twist(m);          // all motions are given
   torque = std::max(torque, 1e-12);

@@ -76,6 +76,7 @@ TravelOfTurn travel_of_turn(const ReducedMechanism& reduced) {
     travel.least = std::min(travel.least, x);
     travel.greatest = std::max(travel.greatest, x);
     travel.least_inertia = std::min(travel.least_inertia, inertia);
+    travel.weight = std::max(travel.weight, std::abs(reduced.gravity_torque(phi).value));
   };
   travel.mean_inertia = reduced.mean(ReducedMechanism::inertia_channel);
   if (arc) visit(from), visit(from + cycle);
@@ -188,9 +189,13 @@ MechanismElement::MechanismElement(Mechanism mechanism) : mechanism_(std::move(m
   if (mechanism_.is_force()) account = loads.front().account, further_accounts.erase(further_accounts.begin());
   if (mechanism_.friction) further_accounts.emplace_back(mechanism_.name + ".joints", Account::harmful);
   angle_period = cycle;
-  if (mechanism_.arc()) cycle = HUGE_VAL;          // it never completes a turn
-  rated = {force * mechanism_.output_scale(), 0};  // greatest force times half the stroke
-  if (mechanism_.is_force()) cycle = 0;            // the linkage has it
+  if (mechanism_.arc()) cycle = HUGE_VAL;  // it never completes a turn
+  // Greatest force times half the stroke; of a mechanism without loads its weights, where they are more than rounding.
+  rated = {mechanism_.stands_still() ? 0 : force * mechanism_.output_scale(), 0};
+  if (const double at = mechanism_.arc() ? mechanism_.arc()->middle : 0.7, weight = mechanism_.travel.weight;
+      force == 0 && mechanism_.has_weight() && weight > 1e-9 * closed_sample(mechanism_.data, at).gravity_torque_scale)
+    rated.torque = weight;
+  if (mechanism_.is_force()) cycle = 0;  // the linkage has it
   modes = 1 + static_cast<int>(loads.size()) +
           (mechanism_.friction ? mechanism_.friction->sign_count() + mechanism_.friction->side_count() : 0);
 }

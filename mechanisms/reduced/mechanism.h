@@ -23,6 +23,7 @@ struct TravelOfTurn {
   double least = 0, greatest = 0;              // of the output's position [m] or [rad]
   std::vector<double> reversals;               // crank angles at which the output reverses, ascending [rad]
   double mean_inertia = 0, least_inertia = 0;  // of I_r [kg·m²]
+  double weight = 0;                           // greatest |M_g| [N·m]
   double winding = 0;                          // turns of the output per turn of the crank; 0: it slides or rocks
 };
 TravelOfTurn travel_of_turn(const ReducedMechanism& reduced);

@@ -157,5 +157,30 @@ TEST(ConstantTravels, KeepTheirReactions) {
   EXPECT_NEAR(with - guide(""), -10, 1e-9);
 }
 
+// A load however small beside the inertia, and inertia however small beside the weights: the squared torque of what drives is
+// judged by the greatest of them, so that the steps are those of the motion.
+TEST(ConstantTravels, SmallTorquesKeepNoStepsShort) {
+  const Result bare = test::run(ram(""), false);
+  for (int k = 0; k <= 18; k += 3) {
+    const Result r = test::run(ram(fmt::format("[m.forces]\nf = {{ on = \"B\", along = \"0 deg\", load = {{ kind = "
+                                               "\"constant\", force = \"1e-{} N\" }} }}",
+                                               k)),
+                               false);
+    ASSERT_TRUE(r.complete) << r.diagnosis;
+    EXPECT_LE(r.statistics.stepper.steps, 2 * bare.statistics.stepper.steps) << k;
+  }
+  std::int64_t steps = 0;
+  for (const char* speed : {"100 rpm", "1 rpm", "0.01 rpm", "0.0001 rpm"}) {
+    const Scene scene = test::scene_from(
+        ram("", fmt::format("kind = \"prescribed speed\"\nspeed = \"{}\"", speed), "gravity = \"9.81 m/s2\""));
+    Scene turned = scene;
+    turned.run.until = 3 * 60 / std::stod(speed);
+    const Result r = test::run(turned, false);
+    ASSERT_TRUE(r.complete) << r.diagnosis;
+    if (steps == 0) steps = r.statistics.stepper.steps;
+    EXPECT_LE(r.statistics.stepper.steps, 2 * steps) << speed;
+  }
+}
+
 }  // namespace
 }  // namespace kurbel::constant_travels_test
