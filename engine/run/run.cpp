@@ -165,8 +165,10 @@ class Loop {
     try {
       return advance();
     } catch (const Jam&) {
-      if (!stop_by_jam()) throw;
-      return true;
+      if (stop_by_jam()) return true;
+      const std::vector<double> before(stepper_->y_previous().begin(), stepper_->y_previous().end());
+      restart(stepper_->t_previous(), before);
+      throw;
     }
   }
 
@@ -180,6 +182,7 @@ class Loop {
       stepper_->step(until);
     } catch (const StepFailure& failure) {
       if (equations_.jam() && pass_jam()) return true;
+      if (failure.not_finite && equations_.jam()) throw Jam(*equations_.jam());  // a prescribed motion does not stop
       if (failure.not_finite) throw;
       const auto other = choice_.after_failure(stepper_->t(), method_, failure.what());
       if (!other) throw;

@@ -16,6 +16,7 @@ struct JointFriction::Work {
   std::size_t n = 0, joints = 0;
   double phi = 0;
   bool given = false;                            // the acceleration is given
+  bool answers = false;                          // the acceleration answers the friction
   double strength[most_joints];                  // −sgn(v) times ρ or f + k_r/r_r
   double edge[2][most_joints];                   // shares of u and w in Σ|N|; 0: by their signs
   double base[most_reactions];                   // R₀

@@ -90,6 +90,7 @@ void JointFriction::without_friction(const State& s, const double* values, doubl
 void JointFriction::prepare(const State& s, double response, const double* values, bool fold, Work& w) const {
   const std::size_t n = places_.loads, reactions = places_.reactions();
   w.n = fold ? places_.joints : n, w.joints = places_.joints, w.phi = s.phi;
+  w.answers = response != 0;
   const double* ratio = values + places_.ratio(0);
   const int direction = s.direction != 0 ? s.direction : sign_of(s.omega);
   without_friction(s, values, w.base);
@@ -213,9 +214,9 @@ void JointFriction::find(const State& s, Work& w) const {
           fmt::format("its joints jam at phi = {:.6g} deg: from {:.3g} % of the given friction on no {} satisfy the "
                       "friction laws; lower the coefficients, or lengthen guides and the links that push against them",
                       s.phi * 180 / std::numbers::pi, 100 * share,
-                      s.at_rest ? "finite reactions at rest"
-                      : w.given ? "finite reactions"
-                                : "reactions and no acceleration"));
+                      s.at_rest   ? "finite reactions at rest"
+                      : w.answers ? "reactions and no acceleration"
+                                  : "finite reactions"));
   }
 }
 

@@ -266,5 +266,52 @@ run = { start = { angle = "185 deg", speed = "20 rad/s" }, until = "0.3 s", accu
   }
 }
 
+// As a named mechanism and as a linkage, of a ram on a rough guide: f |tan β| passes 1 where |sin φ| r/l = sin atan(1/f).
+std::string rough_guide(bool sketched, double rod, double friction, const std::string& drive,
+                        const std::string& start) {
+  const std::string mechanism =
+      sketched ? fmt::format(
+                     "kind = \"linkage\"\npoints = {{ O = [0, 0], A = [0, 0.1], B = [{:.17g}, 0] }}\nunit = "
+                     "\"m\"\nframe = \"O\"\nslides = {{ ram = \"0 deg\" }}\nlinks = {{ crank = {{ points = "
+                     "\"O A\", inertia = \"0.1 kg*m2\" }}, rod = \"A B\", ram = {{ points = \"B\", mass = \"1 "
+                     "kg\" }} }}\njoints = {{ ram = {{ friction = {} }} }}",
+                     std::sqrt(rod * rod - 0.01), friction)
+               : fmt::format(
+                     "kind = \"slider-crank\"\nradius = \"0.1 m\"\nrod = \"{:.17g} m\"\ncrank_inertia = \"0.1 "
+                     "kg*m2\"\nslider_mass = \"1 kg\"\nguide = {{ friction = {} }}",
+                     rod, friction);
+  return fmt::format(
+      "line = [\"drive\", \"m\"]\n[drive]\n{}\n[m]\n{}\nload = {{ kind = \"constant\", force = \"-500 N\" "
+      "}}\n[effects]\njoint_friction = true\n[run]\nstart = {{ {}angle = \"185 deg\", on = \"m\" }}\nuntil "
+      "= \"2 s\"\naccuracy = 1e-4\n",
+      drive, mechanism, start);
+}
+struct Rough {
+  double rod, friction;
+  double limit() const { return 180 + std::asin(std::sin(std::atan(1 / friction)) * rod / 0.1) * 180 / M_PI; }
+};
+const Rough rough_guides[] = {{0.11, 0.8}, {0.15, 1.5}, {0.15, 2.5}, {0.3, 4}};
+
+// Nothing can stop a prescribed motion: the run ends there, in words, with what was computed.
+TEST(Jams, JointsThatJamUnderAPrescribedSpeedEndTheRunInWords) {
+  for (const bool sketched : {false, true})
+    for (const Rough& rough : rough_guides)
+      for (const char* method : {"auto", "dopri5", "dop853", "esdirk", "bdf", "adams"}) {
+        Scene scene = test::scene_from(
+            rough_guide(sketched, rough.rod, rough.friction, "kind = \"prescribed speed\"\nspeed = \"60 rpm\"", ""));
+        scene.run.method = method;
+        const Result r = test::run(scene, false);
+        SCOPED_TRACE(fmt::format("{} {} {}: {}", sketched, rough.rod, method, r.diagnosis));
+        EXPECT_FALSE(r.complete);
+        const std::string words = "\"m\": its joints jam at phi = ";
+        const std::size_t at = r.diagnosis.find(words);
+        ASSERT_NE(at, std::string::npos);
+        EXPECT_NEAR(std::stod(r.diagnosis.substr(at + words.size())), rough.limit(), 0.1);
+        EXPECT_EQ(r.diagnosis.find("nan"), std::string::npos);
+        EXPECT_EQ(r.diagnosis.find("try method"), std::string::npos);
+        EXPECT_NEAR(test::figure(r, "final_angle.m") * 180 / M_PI, rough.limit(), 0.1);
+      }
+}
+
 }  // namespace
 }  // namespace kurbel::jams_test
