@@ -1,11 +1,13 @@
-// contact_claims.cpp — clutches, limiters, belts and brakes: by the final state and by records during the run.
+// contact_claims.cpp — clutches, limiters, belts, brakes, joints that jam: by the final state and by records during the run.
 #include "studies/answers/motion_claims.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "engine/numerics/index.h"
@@ -252,6 +254,30 @@ class ContactJudge {
 Claims contact_claims(Equations& equations, const RunOutcome& outcome, const Result& result,
                       const SlipRecorder& slips) {
   return ContactJudge(equations, outcome, result, slips).all();
+}
+
+std::string text_of_place(double angle) {
+  const double degrees = angle * 180 / std::numbers::pi;
+  return fmt::format("{:.1f}°", degrees - 360 * std::floor(degrees / 360));
+}
+
+// Gears that lock themselves jam, too, and hold their load.
+std::optional<Claim> joints_jam(const Model& m, const RunOutcome& outcome) {
+  constexpr std::string_view joints = ".joints";  // accounts of mechanisms with friction
+  for (const Event& e : outcome.events)
+    for (const auto& account : m.accounts) {
+      if (e.kind != EventKind::jam || !account.name.ends_with(joints)) continue;
+      const std::string of = account.name.substr(0, account.name.size() - joints.size());
+      const int shaft = m.shaft_of_node[at(m.network.ports.at(of).in)];
+      if (e.component != m.node_label(m.shafts[at(shaft)].reference)) continue;
+      return claimed(
+          Predicate::jams,
+          fmt::format("\"{}\" jams at {} after {:.3g} s: no acceleration satisfies the friction in its joints "
+                      "while it moves (Painlevé's inconsistency), and it stops at once",
+                      of, text_of_place(e.angle), e.t),
+          of, {.at = e.t, .value = e.angle, .unit = "rad"});
+    }
+  return {};
 }
 
 }  // namespace kurbel

@@ -154,7 +154,6 @@ class Judge {
     if (!is_held() && (!motor || *since == 0)) return {};
     const double torque = drive();
     if (torque == 0) return {};
-    const double degrees = angle() * 180 / std::numbers::pi;
     std::string why = fmt::format(
         "{} can hold the {:.4g} N·m that drive there, and holds them to the end",
         holders_beside(m_.effects.joint_friction ? "the loads and the friction in joints" : "the load"), torque);
@@ -162,8 +161,7 @@ class Judge {
       if (claim.predicate == Predicate::slips_to_the_end && m_.network.kind_of(claim.of) != "brake")
         why = claim.text, claim.in_conclusion = false;
     return claimed(Predicate::stalls,
-                   fmt::format("\"{}\" stalls at {:.1f}° after {:.3g} s: {}", link(),
-                               degrees - 360 * std::floor(degrees / 360), *since, why),
+                   fmt::format("\"{}\" stalls at {} after {:.3g} s: {}", link(), text_of_place(angle()), *since, why),
                    link(), {.at = since, .value = std::abs(torque), .limit = 0, .unit = "N*m"});
   }
 
@@ -411,7 +409,8 @@ Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Resu
   if (outcome.state.empty()) return claims;
   const Judge judge(equations, outcome, link, watch, budget);
   Claims contacts = contact_claims(equations, outcome, result, slips);
-  std::optional<Claim> halts = judge.stalls(contacts);
+  std::optional<Claim> jams = joints_jam(equations.model(), outcome), halts = judge.stalls(contacts);
+  if (jams && judge.rests()) halts = std::move(jams);
   if (!outcome.complete) return halts ? Claims{std::move(*halts)} : claims;
   double fastest = 0;
   for (const Figure& f : result.figures)
@@ -432,6 +431,7 @@ Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Resu
       add(claims, std::move(held));
     }
   }
+  if (jams && !judge.rests()) add(claims, std::move(jams));
   for (Claim& claim : contacts) claims.push_back(std::move(claim));
   return claims;
 }

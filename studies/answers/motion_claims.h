@@ -28,6 +28,12 @@ inline bool keeps_gaining(const std::array<double, 3>& mean) {
 // command, or overrun. `result` contains the errors of its final state.
 Claims contact_claims(Equations& equations, const RunOutcome& outcome, const Result& result, const SlipRecorder& slips);
 
+// Of a machine whose motion ended where the friction in a mechanism's joints allows none; empty: it did not.
+std::optional<Claim> joints_jam(const Model& model, const RunOutcome& outcome);
+
+// "220.8°", within a turn; from an angle [rad].
+std::string text_of_place(double angle);
+
 // Starts in an unstable equilibrium; springs between shafts of which only one has a start speed in the scene, while that of the other differs by more
 // than a tenth of the usual speed.
 Claims start_claims(const std::shared_ptr<const Model>& model);

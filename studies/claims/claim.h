@@ -27,6 +27,7 @@ enum class Severity { note, warning, fault };
 enum class Predicate {
   // does it run?
   incomplete,
+  jams,
   stalls,
   does_not_start,
   brake_does_not_stop,

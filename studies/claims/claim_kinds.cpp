@@ -16,6 +16,13 @@ constexpr std::array kinds = {
     ClaimKind{incomplete, runs, fault, anything,
               "the computation ended before its end: budget, interrupt, a motion that cannot go on", "none",
               "INCOMPLETE: the budget of 300 s of processor time is spent", "every command"},
+    ClaimKind{jams, runs, fault, anything,
+              "at an angle of the moving link no acceleration satisfies the friction in the joints of a mechanism "
+              "(Painlevé's inconsistency, theory 9.10), so that an impact stops it there (8.15); of several the first",
+              "at: of the impact; value: the link's angle [rad]",
+              "\"crank\" jams at 220.8° after 0.0116 s: no acceleration satisfies the friction in its joints while it "
+              "moves (Painlevé's inconsistency), and it stops at once",
+              "run, compare"},
     ClaimKind{stalls, runs, fault, above,
               "the link moved, is at rest at the end and held there, directly or through springs, and something drives "
               "it; no engaged brake holds it",

@@ -10,12 +10,17 @@
 #include "engine/events/equations.h"
 #include "engine/model/model.h"
 #include "engine/run/run.h"
+#include "studies/run/run_findings.h"
 #include "tests/published/published.h"
+#include "tests/support/conclusions.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::jams_test {
 namespace {
+
+using test::find;
+using test::said;
 
 std::string with(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
@@ -263,6 +268,9 @@ run = { start = { angle = "185 deg", speed = "20 rad/s" }, until = "0.3 s", accu
     EXPECT_NEAR(jam->angle, limit, 0.03) << method;
     EXPECT_LE(test::figure(r, "final_angle.crank"), jam->angle) << method;
     EXPECT_LT(r.energy.by_account.at("crank.joints"), -80) << method;
+    const Claim* claim = find(r.claims, Predicate::jams, "crank");
+    ASSERT_TRUE(claim) << method;
+    EXPECT_EQ(claim->evidence.value, jam->angle) << method;
   }
 }
 
@@ -311,6 +319,22 @@ TEST(Jams, JointsThatJamUnderAPrescribedSpeedEndTheRunInWords) {
         EXPECT_EQ(r.diagnosis.find("try method"), std::string::npos);
         EXPECT_NEAR(test::figure(r, "final_angle.m") * 180 / M_PI, rough.limit(), 0.1);
       }
+}
+
+// A torque source and a flywheel are stopped in an instant, which is no stall.
+TEST(Jams, OfJointsUnderAMotorAreClaimedAsSuch) {
+  for (const bool sketched : {false, true})
+    for (const Rough& rough : rough_guides) {
+      const Result r = test::run(rough_guide(sketched, rough.rod, rough.friction,
+                                             "kind = \"torque source\"\ntorque = \"60 N*m\"\ninertia = \"20 kg*m2\"",
+                                             "speed = \"300 rpm\", "));
+      SCOPED_TRACE(fmt::format("{} {}: {}", sketched, rough.rod, said(r)));
+      const Claim* claim = find(r.claims, Predicate::jams, "m");
+      ASSERT_TRUE(claim);
+      EXPECT_NEAR(*claim->evidence.value * 180 / M_PI, rough.limit(), 3);  // the ram's inertia shifts it
+      EXPECT_FALSE(find(r.claims, Predicate::stalls));
+      EXPECT_NE(claim->text.find("Painlevé"), std::string::npos);
+    }
 }
 
 }  // namespace

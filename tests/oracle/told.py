@@ -8,6 +8,7 @@ TIME = rf"({NUMBER}) (µs|ms|s|min|h)\b"
 
 # Name of what is said, and the sentence that says it; the first group is the component.
 SENTENCES = {
+    "jams": r'"([^"]+)" jams at ',
     "stalls": r'"([^"]+)" stalls at ',
     "does not start": r'"([^"]+)" does not start',
     "turns back": r'"([^"]+)" turns backwards',
@@ -27,7 +28,7 @@ SENTENCES = {
 }
 # The same of typed claims (docs/claims.md).
 PREDICATES = {
-    "stalls": "stalls", "does_not_start": "does not start", "turns_back": "turns back", "runs_away": "runs away", "hangs_below_breakdown": "hangs",
+    "jams": "jams", "stalls": "stalls", "does_not_start": "does not start", "turns_back": "turns back", "runs_away": "runs away", "hangs_below_breakdown": "hangs",
     "does_not_get_round": "no round", "slips_to_the_end": "slips to the end", "brake_does_not_stop": "brake too weak",
     "brake_has_not_stopped": "brake not done", "clutch_slips_closed": "lets go", "limiter_slips": "lets go", "belt_slips": "slips at times",
     "runs_steadily": "steady", "goes_through_sequence": "sequence done", "not_steady_yet": "not steady", "at_rest": "at rest", "moves": "ends",
@@ -35,7 +36,7 @@ PREDICATES = {
     "vibrates": "vibrates", "clutch_slips_engaging": "engages", "clutch_opened_by_command": "open", "freewheel_overruns": "overruns",
 }
 # What tells that the machine's motion is not what it should be.
-BAD_MOTION = ("stalls", "does not start", "turns back", "runs away", "hangs", "no round", "slips to the end", "brake too weak",
+BAD_MOTION = ("jams", "stalls", "does not start", "turns back", "runs away", "hangs", "no round", "slips to the end", "brake too weak",
               "brake not done")
 
 
