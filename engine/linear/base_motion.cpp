@@ -146,6 +146,9 @@ void BaseMotion::find_inertia() {
 
 void BaseMotion::find_coordinates() {
   coordinates_ = coordinates_of(m_, equations_.ties(), shaft_inertia_);
+  if (m_.free_shafts == 0)
+    throw std::invalid_argument(
+        "every speed is prescribed, so nothing can vibrate; switch the elasticity of a coupling or shaft on");
   if (coordinates_.size() == 0)
     throw std::invalid_argument(
         "every shaft is held by friction at rest, so nothing can vibrate; give a speed, e.g. --speed \"10 rpm\"");

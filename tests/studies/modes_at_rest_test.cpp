@@ -159,6 +159,21 @@ TEST(ModesAtRest, WhatFrictionHoldsHasItsNaturalFrequencies) {
   EXPECT_FALSE(findings_of(m).claims.empty());
 }
 
+// Nothing is held by friction where there is none.
+TEST(ModesAtRest, WithoutAFreeShaftThereAreNone) {
+  const std::string text = pendulum(0);
+  const Scene scene = test::scene_from(
+      "line = [\"drive\", \"pendulum\"]\ndrive = { kind = \"prescribed speed\", speed = "
+      "\"12 rpm\" }\n" +
+      text.substr(text.find("[pendulum]")));
+  try {
+    find_modes(scene, scene.effects, {});
+    ADD_FAILURE();
+  } catch (const std::invalid_argument& why) {
+    EXPECT_NE(std::string(why.what()).find("every speed is prescribed"), std::string::npos) << why.what();
+  }
+}
+
 // Upside down it falls: λ = +√(m g l/J), told, and no frequency is made of it.
 TEST(ModesAtRest, RestUpsideDownIsStatedToGrow) {
   const ModesStudy m = modes_of(pendulum(0), [] {
