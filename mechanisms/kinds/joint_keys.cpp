@@ -45,12 +45,31 @@ constexpr struct FilmKey {
 } film_keys[] = {{"roughness", "m", &RubbingJoint::roughness,
                   "R_q of the journal, for which friction it is (figure of forces; the run's friction is unchanged)"},
                  {"bore_roughness", "m", &RubbingJoint::bore_roughness, "R_q of its bore"},
-                 {"viscosity", "Pa*s", &RubbingJoint::viscosity, "of the oil at its temperature; none or 0: dry"},
+                 {"viscosity", "Pa*s", &RubbingJoint::viscosity, "of the oil at its temperature; 0: dry"},
                  {"clearance", "m", &RubbingJoint::clearance, "radial: bore's radius less journal's"},
                  {"film_length", "m", &RubbingJoint::film_length, "of the bearing along its axis"}};
 
+// All of it or nothing; without viscosity it is dry.
+void check_film(const Reading<RubbingJoint>& joint) {
+  const bool any = std::any_of(std::begin(film_keys), std::end(film_keys),
+                               [&](const FilmKey& key) { return joint.given(key.member); });
+  if (!any || (joint.given(&RubbingJoint::viscosity) && joint.viscosity == 0)) return;
+  std::string missing;
+  for (const FilmKey& key : film_keys) {
+    const bool rough = key.member == &RubbingJoint::roughness && joint.bore_roughness > 0;
+    if (key.member == &RubbingJoint::bore_roughness || rough || joint.*key.member > 0) continue;
+    missing += (missing.empty() ? "" : ", ") + std::string(key.name);
+  }
+  if (missing.empty()) return;
+  joint.refuse(
+      fmt::format("which friction it is depends on roughness, viscosity, clearance and film_length together; "
+                  "missing: {} (viscosity = \"0 Pa*s\": dry)",
+                  missing));
+}
+
 void add_film(Fields<RubbingJoint>& to) {
   for (const FilmKey& key : film_keys) to.add(quantity(key.name, key.unit, not_negative, key.doc), key.member);
+  if constexpr (has_bodies) to.check(check_film);
 }
 
 const Tables<RubbingJoint>& journals() {

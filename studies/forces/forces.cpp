@@ -148,7 +148,7 @@ class Study {
     if (simulated) report_outside_data(out_, simulated->outside_data, *out_.simulated, true);
     if (out_.balancing && !out_.prescribed->torque.error)
       for (Counterweight& c : out_.balancing->counterweights) c.peak_bearing.error.reset();
-    out_.films = films_of(out_.joints, out_.front(), out_.notes);
+    out_.films = films_of(out_.joints, out_.front());
     for (std::optional<ForceCycle>* cycle : {&out_.prescribed, &out_.simulated})
       if (*cycle) mark_unbounded(out_.unbounded, **cycle);
     return std::move(out_);

@@ -105,7 +105,7 @@ std::string PinFilm::words() const {
   return fmt::format("{}", fmt::join(kinds, ", "));
 }
 
-std::vector<PinFilm> films_of(const MechanismJoints& joints, const ForceCycle& cycle, std::vector<std::string>& notes) {
+std::vector<PinFilm> films_of(const MechanismJoints& joints, const ForceCycle& cycle) {
   std::vector<PinFilm> films;
   const std::vector<JointForces>& all = cycle.positions.front().forces.joints;
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -115,13 +115,6 @@ std::vector<PinFilm> films_of(const MechanismJoints& joints, const ForceCycle& c
     film.joint = all[k].name;
     const double rough = std::hypot(j->roughness, j->bore_roughness);
     film.dry = j->viscosity == 0;
-    if (!film.dry && !(rough > 0 && j->clearance > 0 && j->film_length > 0 && j->radius > 0)) {
-      notes.push_back(
-          fmt::format("{}: which friction it is was not assessed: roughness, clearance and film_length must "
-                      "be given with viscosity",
-                      film.joint));
-      continue;
-    }
     double most = -1;
     std::vector<double> numbers;
     const double by = j->clearance * j->clearance / (j->film_length * j->radius * j->radius);

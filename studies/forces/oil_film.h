@@ -23,7 +23,7 @@ Estimate least_film(double load_number, double slenderness);
 // λ = h_min/√(R_q1² + R_q2²): boundary friction below 1, fluid above 3, mixed between; dry without oil.
 inline constexpr double boundary_below = 1, fluid_above = 3;
 
-// Of pins whose film data are complete; `notes` gets a sentence for each that lacks some.
-std::vector<PinFilm> films_of(const MechanismJoints& joints, const ForceCycle& cycle, std::vector<std::string>& notes);
+// Of pins with film data, which are complete or dry.
+std::vector<PinFilm> films_of(const MechanismJoints& joints, const ForceCycle& cycle);
 
 }  // namespace kurbel
