@@ -120,7 +120,8 @@ bool read_named(const DocumentValue& value, const Key& key, const std::string& w
                 DataFiles allowed, Setting& setting) {
   if (value.type != Type::table || value.entries.empty() || value.entries.size() > most_items) {
     messages.add(value.at, fmt::format("{} = {}; must be a table with a name of yours for each, e.g. {}", what,
-                                       value.describe(), example_of(key)));
+                                       value.type == Type::table && value.entries.empty() ? "{ }" : value.describe(),
+                                       example_of(key)));
     return false;
   }
   const Kind& kind = key.nested->front();

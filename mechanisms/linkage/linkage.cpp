@@ -58,7 +58,8 @@ Linkage::Linkage(LinkageSketch sketch) : sketch_(std::move(sketch)) {
 bool Linkage::check() {
   const auto& s = sketch_;
   if (s.links.size() < 2 || s.links.size() > s.most_links)
-    refuse("links", fmt::format("{} links beside the frame; must be 2 … {}", s.links.size(), +s.most_links));
+    refuse("links", fmt::format("{} link{} beside the frame; must be 2 … {}", s.links.size(),
+                                s.links.size() == 1 ? "" : "s", +s.most_links));
   if (s.points.size() > s.most_points)
     refuse("points", fmt::format("{} points; must be at most {}", s.points.size(), +s.most_points));
   if (!faults_.empty()) return false;
