@@ -270,7 +270,7 @@
     });
     const layout = {
       separators: '.\u2009', paper_bgcolor: 'rgba(0,0,0,0)', plot_bgcolor: 'rgba(0,0,0,0)', font: {color: colour('text'), size: 12, family: getComputedStyle(document.body).fontFamily},
-      margin: {l: 10, r: 14, t: 30, b: 10}, hovermode: isLocus(plot) || plot.map || plot.series.some(s => s.sizes) ? 'closest' : 'x unified', hoverlabel: {bgcolor: colour('page'), bordercolor: colour('line'), font: {color: colour('text')}},
+      margin: {l: 10, r: 14, t: legendRows(plot) > 1 ? 21 + 19 * legendRows(plot) : 30, b: 10}, hovermode: isLocus(plot) || plot.map || plot.series.some(s => s.sizes) ? 'closest' : 'x unified', hoverlabel: {bgcolor: colour('page'), bordercolor: colour('line'), font: {color: colour('text')}},
       legend: {orientation: 'h', x: 0, y: 1.0, xanchor: 'left', yanchor: 'bottom', font: {size: 12}}, showlegend: plot.series.length > 0 && !(plot.bars && plot.x.names && plot.series.every(s => s.x.length === 1)),
       xaxis: {...axis(plot.x, 'x'), ...rangeOf(plot)}, yaxis: {...axis(plot.y, 'y'), ...(plot.y.names ? placesOf(plot.y.names) : {})}, dragmode: narrow() ? false : 'zoom',
     };
@@ -432,7 +432,7 @@
   function drawPlot(entry) {
     const {plot, place} = entry;
     place.style.height = '';
-    if (legendRows(plot) > 1) place.style.height = place.clientHeight + 17 * (legendRows(plot) - 1) + 'px';  // a legend takes no room from curves
+    if (legendRows(plot) > 1) place.style.height = place.clientHeight + 19 * (legendRows(plot) - 1) + 10 + 'px';  // a legend takes no room from curves
     const layout = layoutOf(plot);
     if (root.classList.contains('printing')) Object.assign(layout, {width: place.clientWidth, height: place.clientHeight});
     else layout.autosize = true;

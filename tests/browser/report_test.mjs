@@ -130,6 +130,11 @@ try {
       const right = document.querySelector('main').getBoundingClientRect().right;
       window.printed = {
         folded: document.querySelectorAll('details:not([open]):not(.licence)').length,
+        legends: [...document.querySelectorAll('.js-plotly-plot')].filter(plot => {
+          const legend = plot.querySelector('.legend'), field = plot.querySelector('.bglayer .bg, .nsewdrag');
+          const [a, b] = [legend, field].map(part => part && part.getBoundingClientRect());
+          return a && b && a.top < b.top && a.bottom > b.top + 4;
+        }).map(plot => plot.closest('.card').textContent.slice(0, 60)),
         wide: [...document.querySelectorAll('.scroll table')].filter(t => t.getBoundingClientRect().right > right + 1).map(t => t.closest('.card').textContent.slice(0, 60)),
         broken: [...document.querySelectorAll('td.number')].filter(cell => {
           const range = document.createRange();
@@ -142,7 +147,7 @@ try {
     const folded = await page.$$eval('details:not([open])', list => list.length);
     const pdf = await page.pdf({preferCSSPageSize: true});
     assert.ok(pdf.length > 20000 && pdf.subarray(0, 5).toString() === '%PDF-', 'prints to PDF');
-    assert.deepEqual(await page.evaluate(() => window.printed), {folded: 0, broken: [], cut: 0, wide: []});
+    assert.deepEqual(await page.evaluate(() => window.printed), {folded: 0, legends: [], broken: [], cut: 0, wide: []});
     let sheets = 0;
     if (canReadPages()) {
       const pages = printed(pdf);
