@@ -138,7 +138,9 @@ TEST(ConstantTravels, RunAsIfNothingActed) {
     EXPECT_NEAR(test::figure(r, "motor_rms_torque.drive"), test::figure(bare, "motor_rms_torque.drive"), 1e-8)
         << within;
     for (const auto& [account, work] : r.energy.by_account)
-      if (account != "drive") EXPECT_EQ(work, 0) << account << within;
+      if (account != "drive") {
+        EXPECT_EQ(work, 0) << account << within;
+      }
   }
 }
 
