@@ -433,9 +433,11 @@
     const {plot, place} = entry;
     place.style.height = '';
     if (legendRows(plot) > 1) place.style.height = place.clientHeight + 19 * (legendRows(plot) - 1) + 10 + 'px';  // a legend takes no room from curves
-    const layout = layoutOf(plot);
-    if (root.classList.contains('printing')) Object.assign(layout, {width: place.clientWidth, height: place.clientHeight});
+    const layout = layoutOf(plot), onPaper = root.classList.contains('printing');
+    if (onPaper) Object.assign(layout, {width: place.clientWidth, height: place.clientHeight});
     else layout.autosize = true;
+    if (onPaper !== Boolean(entry.onPaper)) Plotly.purge(place), entry.drawn = false;  // else the legend keeps the room that it had
+    entry.onPaper = onPaper;
     Plotly.react(place, tracesOf(plot), layout, {responsive: true, displaylogo: false, displayModeBar: false});
     if (!entry.drawn && (plot.marks.length || plot.x.log || plot.y.log)) place.on('plotly_relayout', () => refine(entry));
     entry.drawn = true;

@@ -66,7 +66,7 @@ run = { until = "1 s" }
   } catch (const SceneError& error) {
     EXPECT_STREQ(error.what(),
                  "test.toml:5:1: method \"fehlberg8\": the torque of \"motor\" depends on time, and its error estimate "
-                 "is blind to "
+                 "misses "
                  "what depends on time alone; choose dop853 or verner6");
   }
 }

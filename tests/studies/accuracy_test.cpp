@@ -212,7 +212,7 @@ run = { until = "1 s" }
 )"),
                                                 options);
   EXPECT_TRUE(std::any_of(driven.omissions.begin(), driven.omissions.end(), [](const Omission& o) {
-    return o.what == "rigid, fehlberg8" && o.why.find("blind") != std::string::npos;
+    return o.what == "rigid, fehlberg8" && o.why.find("misses") != std::string::npos;
   }));
   EXPECT_THROW(
       {
