@@ -101,22 +101,32 @@ void SwitchingRecorder::look(double t, const Equations& equations, bool count) {
   for (std::size_t e = 0; e < on_since_.size(); ++e) {
     const auto& element = *m.network.elements[e].element;
     const double since = modes.active[e] ? modes.on_since[e] : off;
+    if (on_since_[e] != off && since != on_since_[e]) break_off(static_cast<int>(e), t, false);
     if (count && element.is.starts_anew && element.settled_from > 0 && since != off && since != on_since_[e])
-      all_.push_back({since, since + element.settled_from, true});
+      all_.push_back({since, since + element.settled_from, true, static_cast<int>(e)});
     on_since_[e] = since;
   }
   for (std::size_t c = 0; c < command_.size(); ++c) {
     const Command now = modes.command[c], before = std::exchange(command_[c], now);
     const bool comes_to_rest = !before.holds_still() && now.holds_still() && now.value == goal_of(m, before);
-    if (!count || now == before || comes_to_rest || (now.law >= 0 && now.law == before.law)) continue;
+    if (now == before || comes_to_rest || (now.law >= 0 && now.law == before.law)) continue;
+    const int of = -1 - static_cast<int>(c);
+    break_off(of, t, true);
+    if (!count) continue;
     const double from = before.at(t, m.scene.sequence), to = goal_of(m, now);
     if (now.holds_still() && to == from) continue;
     const Curve* law = law_of(m, now);
     const double settled = law                 ? (law->period() > 0 ? t : now.from + constant_from(*law))
                            : now.holds_still() ? t
                                                : now.until;
-    all_.push_back({t, settled, settled > t && drives(m, c) && (std::abs(to) > std::abs(from) || to * from < 0)});
+    all_.push_back({t, settled, settled > t && drives(m, c) && (std::abs(to) > std::abs(from) || to * from < 0), of});
   }
+}
+
+// What is switched off, or commanded anew, before it is settled.
+void SwitchingRecorder::break_off(int of, double t, bool starts) {
+  for (Switched& s : all_)
+    if (s.of == of && s.settled > t) s.settled = t, s.starts = s.starts && starts;
 }
 
 void SwitchingRecorder::step(StepView& view) {

@@ -16,8 +16,9 @@ namespace kurbel {
 struct Switched {
   double t = 0, settled = 0;  // [s]
   bool starts = false;        // a drive: its starter works, or its command rises along a ramp or a law
+  int of = 0;                 // element, or −1 − command
   std::optional<std::array<double, 4>> work = {};  // by Account, up to `settled` [J]
-  void remember(Tape& tape) { tape(t, settled, starts, work); }
+  void remember(Tape& tape) { tape(t, settled, starts, of, work); }
 };
 
 // Commands and starters as they come in a run. Of a sequence that repeats only what works at the start: it divides nothing.
@@ -31,6 +32,7 @@ class SwitchingRecorder final : public Observer {
 
  private:
   void look(double t, const Equations& equations, bool count);
+  void break_off(int of, double t, bool starts);
   std::vector<Switched> all_;
   std::vector<Command> command_;  // as they were
   std::vector<double> on_since_;  // per element; −1e300: it is off [s]

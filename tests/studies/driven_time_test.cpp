@@ -181,6 +181,16 @@ TEST(DrivenTime, AMotorThatIsNeverOnIsNotWaitedFor) {
   ASSERT_TRUE(r.periods.steady) << r.periods.verdict;
   EXPECT_LT(figure(r, "run_up_time"), 19);
 }
+// Switched off long before its ramp is through, it is not being started any more.
+TEST(DrivenTime, AStartThatIsBrokenOffIsNotWaitedFor) {
+  const Result off = run(motors(soft, R"({ at = "2 s", set = "second", to = 0 })", 19), false);
+  ASSERT_TRUE(off.periods.steady) << off.periods.verdict;
+  EXPECT_LT(figure(off, "run_up_time"), 19);
+  const Result again =
+      run(motors(soft, R"({ at = "2 s", set = "second", to = 0 }, { at = "4 s", set = "second", to = 1 })", 30), false);
+  ASSERT_TRUE(again.periods.steady) << again.periods.verdict;
+  EXPECT_NEAR(figure(again, "run_up_time"), 24, 1e-9);
+}
 TEST(DrivenTime, AMotorSwitchedOnLaterIsStartedFromThen) {
   const Result r =
       run(motors(soft, R"({ at = "0 s", set = "second", to = 0 }, { at = "3 s", set = "second", to = 1 })", 30), false);
