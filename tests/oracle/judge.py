@@ -2,7 +2,9 @@
 
     judge(answer) → [Finding(kind, label, words)]      answer: a line of kurbel_oracle
 """
+import tomllib
 from dataclasses import dataclass
+from pathlib import Path
 
 from told import Told
 
@@ -114,10 +116,18 @@ class Judge:
         if self.run.says("steady") and part["steady"] == "yes" and "run_up" in part:
             cycle = self.motion["cycle"] / max(abs(part["mean_speed"]), 1e-9) if self.motion["cycle"] else 0
             margin = CLEARLY * until + 1.5 * cycle
-            if not part["run_up_earliest"] - margin <= (up or 0) <= part["run_up_latest"] + margin:
+            latest = max([part["run_up_latest"], *(ramp for ramp in self.ramps() if not differs(ramp, up or 0, 1e-4))])
+            if not part["run_up_earliest"] - margin <= (up or 0) <= latest + margin:
                 self.contradiction("run-up ends elsewhere", f"said {up}, sampled {part['run_up']:.4g} s")
         if down is not None and self.truth.get("driven_part") and abs(down - self.truth["driven_part"]["until"]) > 0.001 * until:
             self.contradiction("run-down begins elsewhere", f"said {down:.5g}, the last source is on until {self.truth['driven_part']['until']:.5g} s")
+
+    def ramps(self):
+        """When starters of the scene that are on from the start, or from a time, have done their work [s]: no run-up ends before."""
+        scene = Path(self.answer.get("scene", ""))
+        parts = tomllib.loads(scene.read_text()) if scene.is_file() else {}
+        return [sum(float(part.get(key, "0 s").split()[0]) for key in ("start", "ramp", "switch_time"))
+                for part in parts.values() if isinstance(part, dict) and {"ramp", "switch_time"} & part.keys()]
 
     # Neither when it last turned, nor when it is held, nor between them.
     @staticmethod
