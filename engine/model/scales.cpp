@@ -97,8 +97,8 @@ void find_scales(Compilation& c) {
   if (torque == 0) torque = size.resisting;  // nothing drives: the loads set the scale
   if (speed == 0 && torque > 0) speed = std::sqrt(2 * torque * 2 * std::numbers::pi / size.inertia);  // after one turn
   if (speed == 0) speed = 1;
-  // Where nothing has a rated torque, a prescribed motion turns inertia that varies, too, however small the loads, and no
-  // torque is smaller than its rounding.
+  // Where nothing drives by a torque and a speed is prescribed: at least (I mean − I least) ω², the torque of the inertia
+  // that varies, and 1e-6 of I mean ω². Smaller loads are rounding beside these.
   constexpr double least = 1e-6;  // of the inertia's
   const double varying = std::max(size.varying, least * size.mechanisms);
   const auto moves = [](const PrescribedSpeed& given) { return !given.is_nothing(); };

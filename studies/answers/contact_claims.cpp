@@ -7,11 +7,11 @@
 #include <cmath>
 #include <numbers>
 #include <set>
-#include <string_view>
 #include <utility>
 
 #include "engine/numerics/index.h"
 #include "engine/run/run.h"
+#include "mechanisms/reduced/mechanism.h"
 
 namespace kurbel {
 namespace {
@@ -263,11 +263,10 @@ std::string text_of_place(double angle) {
 
 // Gears that lock themselves jam, too, and hold their load.
 std::optional<Claim> joints_jam(const Model& m, const RunOutcome& outcome) {
-  constexpr std::string_view joints = ".joints";  // accounts of mechanisms with friction
   for (const Event& e : outcome.events)
-    for (const auto& account : m.accounts) {
-      if (e.kind != EventKind::jam || !account.name.ends_with(joints)) continue;
-      const std::string of = account.name.substr(0, account.name.size() - joints.size());
+    for (const std::string& of : m.network.components) {
+      const Mechanism* mechanism = e.kind == EventKind::jam ? find_mechanism(m.network, of) : nullptr;
+      if (!mechanism || !mechanism->friction) continue;
       const int shaft = m.shaft_of_node[at(m.network.ports.at(of).in)];
       if (e.component != m.node_label(m.shafts[at(shaft)].reference)) continue;
       return claimed(

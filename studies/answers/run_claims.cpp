@@ -73,12 +73,26 @@ class RunWords {
     const Figure* delta = figure(quantities::delta);
     return delta && delta->value + delta->error.value_or(0) >= 2;
   }
+  // Within the last period, in both senses by more than rounding, and on the whole not through a cycle.
+  bool turns_back() const {
+    const auto end = std::find_if(r_.cycles.rbegin(), r_.cycles.rend(),
+                                  [&](const CycleRecord& c) { return c.end <= p_.judged_until; });
+    double least = 0, greatest = 0, turned = 0;
+    for (auto c = end; c != r_.cycles.rend() && c - end < p_.cycles; ++c) {
+      least = std::min(least, c->omega_min), greatest = std::max(greatest, c->omega_max);
+      turned += c->turned;
+    }
+    const double rounding = 1e-6 * r_.model->speed_scale;
+    const bool gets_on = r_.model->cycle > 0 && std::abs(turned) > 0.5 * r_.model->cycle;
+    return least < -rounding && greatest > rounding && !gets_on;
+  }
   std::optional<Claim> strokes() const {
     const Figure* time = figure(quantities::cycle_time);
-    if (const Figure* period = r_.find(quantities::period, ""); period && !time)
+    if (!time) time = r_.find(quantities::period, "");
+    if (time && turns_back())
       return claimed(Predicate::works_in_strokes,
-                     fmt::format("\"{}\" moves to and fro and repeats it every {}", link(), seconds(period->value)),
-                     link(), of(*period));
+                     fmt::format("\"{}\" moves to and fro with a period of {}", link(), seconds(time->value)), link(),
+                     of(*time));
     return claimed(Predicate::works_in_strokes,
                    fmt::format("\"{}\" makes single strokes{}, and rests between them", link(),
                                time ? fmt::format(", one every {}", seconds(time->value)) : ""),

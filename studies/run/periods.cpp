@@ -202,19 +202,17 @@ std::string remaining_in_words(const Approach& approach, double v, bool steady) 
 
 void judge_steadiness(const Model& model, double tolerance, DrivenTime& d, Periods& periods) {
   if (model.cycle == 0) periods.time = clock_of(model);
-  const std::string unit = model.cycle > 0    ? "cycle"
-                           : periods.time > 0 ? fmt::format("period of {:.6g} s", periods.time)
-                                              : "sixteenth of the time";
-  const char* speed = unit.front() == 's' ? "mean" : "mid";
+  const bool in_parts = model.cycle == 0 && periods.time == 0;
+  const std::string length = periods.time > 0 ? fmt::format(" of {:.6g} s", periods.time) : "";
+  const std::string unit = in_parts ? "sixteenth of the time" : (model.cycle > 0 ? "cycle" : "period") + length;
+  const char* speed = in_parts ? "mean" : "mid";
   const std::size_t whole = model.cycle > 0 ? d.cycles.size() : d.by_time.size();
   const std::optional<Approach> approach = find_period(model, tolerance, d, periods);
   if (!approach) {
-    const std::string units = fmt::format("{}{}{}", unit.substr(0, unit.find(' ')), whole == 1 ? "" : "s",
-                                          periods.time > 0 ? fmt::format(" of {:.6g} s", periods.time) : "");
-    periods.verdict = unit.front() == 's'
-                          ? "too short a time to decide"
-                          : fmt::format("{} whole {}{}, of at least 3 needed", whole, units,
-                                        d.of.begin > 0 ? fmt::format(" since {:.6g} s", d.of.begin) : "");
+    periods.verdict = in_parts ? "too short a time to decide"
+                               : fmt::format("{} whole {}{}{}{}, of at least 3 needed", whole,
+                                             model.cycle > 0 ? "cycle" : "period", whole == 1 ? "" : "s", length,
+                                             d.of.begin > 0 ? fmt::format(" since {:.6g} s", d.of.begin) : "");
     return;
   }
   const double scale = std::abs(d.speed);

@@ -56,7 +56,8 @@ Rows events_table(const Result& r) {
                      count > 1 ? time_of(r, last) : "", count > 1 ? read_as(interval, {.digits = 4}) : ""});
   }
   Rows table =
-      words_table(fmt::format("Events, {} model ({}{})", r.label, r.events.size(), all ? "" : "; the first 500 kinds"),
+      words_table(fmt::format("Events, {} model ({}{})", r.label, r.events.size(),
+                              all ? "" : fmt::format("; the first {} kinds", most)),
                   {"component", "from", "to", "first at [s]", "times", "last at [s]", "mean interval [s]"}, lines);
   table.folded = true;
   table.text_columns = 3;

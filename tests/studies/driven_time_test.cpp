@@ -9,21 +9,14 @@
 #include "studies/claims/claim.h"
 #include "studies/run/periods.h"
 #include "studies/run/run_findings.h"
+#include "tests/support/light_crank.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::driven_time_test {
 namespace {
 
-using test::figure, test::run;
+using test::figure, test::light_crank, test::run;
 
-// A crank without mass, so that a turn is a cycle.
-constexpr const char* crank = R"(
-[crank]
-kind = "slider-crank"
-radius = "0.1 m"
-rod = "0.4 m"
-slider_mass = "1e-6 kg"
-)";
 constexpr const char* shunt =
     R"(kind = "dc shunt motor", stall_torque = "100 N*m", no_load_speed = "100 rad/s", inertia = "1 kg*m2")";
 
@@ -41,7 +34,7 @@ Periods of_mid_speeds(int count, const std::function<double(int)>& mid) {
 line = ["motor", "crank"]
 motor = { kind = "torque source", torque = "1 N*m", inertia = "1 kg*m2" }
 run = { until = "1000 s" }
-)" + std::string(crank));
+)" + std::string(light_crank));
   std::vector<CycleRecord> cycles;
   for (int k = 0; k < count; ++k) {
     CycleRecord& c = cycles.emplace_back();
@@ -82,7 +75,7 @@ run = {{ start = {{ speed = "91 rad/s" }}, until = "{} s", accuracy = 1e-8 }}
 {}
 )",
                      shunt, inertia, until, more) +
-         crank;
+         light_crank;
 }
 // Eight edges of the law are no eight other motions.
 TEST(DrivenTime, AFewPeriodsOfALawOverTimeAreEnough) {
@@ -118,12 +111,27 @@ rotor = { kind = "flywheel", inertia = "1 kg*m2" }
 shaker = { kind = "load", on = "rotor", acts = "always", table = { over = "time", unit = ["s", "N*m"], period = "1.5 s", points = [[0, 1], [0.5, 1], [0.5, -0.5], [1.5, -0.5], [1.5, 1]] } }
 oil = { kind = "load", on = "rotor", damping = "2 N*m*s/rad" }
 run = { start = { speed = "1e-3 rad/s" }, until = "40 s" }
-)" + std::string(crank));
+)" + std::string(light_crank));
   ASSERT_TRUE(r.periods.steady) << r.periods.verdict;
   EXPECT_EQ(r.periods.time, 1.5);
   EXPECT_FALSE(r.find("cycle_time.crank"));
   const std::string told = texts(findings_of(r).claims);
-  EXPECT_NE(told.find("\"crank\" moves to and fro and repeats it every 1.5 s"), std::string::npos) << told;
+  EXPECT_NE(told.find("\"crank\" moves to and fro with a period of 1.5 s"), std::string::npos) << told;
+}
+// It stops in each period and never turns backwards: strokes, with a mechanism's cycle or without.
+TEST(DrivenTime, WhatStopsInEachPeriodAndNeverTurnsBackMakesStrokes) {
+  const Result r = run(R"(
+line = ["motor", "rotor"]
+motor = { kind = "dc shunt motor", stall_torque = "100 N*m", no_load_speed = "100 rad/s", inertia = "0.05 kg*m2" }
+rotor = { kind = "flywheel", inertia = "0.05 kg*m2" }
+load = { kind = "load", on = "rotor", torque = "30 N*m" }
+sequence = { every = "2 s", steps = [{ at = "0 s", set = "motor", to = 1 }, { after = "1.2 s", set = "motor", to = 0 }] }
+run = { until = "21 s" }
+)");
+  ASSERT_TRUE(r.periods.steady) << r.periods.verdict;
+  const std::string told = texts(findings_of(r).claims);
+  EXPECT_NE(told.find("\"motor\" makes single strokes, one every 2 s, and rests between them"), std::string::npos)
+      << told;
 }
 // Switched by the clock, it drives again after its pause.
 TEST(DrivenTime, APauseOfADriveByTheClockIsNoRunDown) {
@@ -151,7 +159,7 @@ rotor = {{ kind = "flywheel", inertia = "1 kg*m2" }}
 run = {{ until = "{} s" }}
 )",
                      points, until) +
-         crank;
+         light_crank;
 }
 TEST(DrivenTime, OfAPrescribedSpeedWhatComesLaterDoesNotCount) {
   const Result r = run(prescribed("[[0, 0], [5, 100], [40, 100], [60, 0]]", 35), false);
@@ -172,7 +180,7 @@ sequence = {{ steps = [{2}] }}
 run = {{ until = "{3} s" }}
 )",
                      shunt, second, steps, until) +
-         crank;
+         light_crank;
 }
 constexpr const char* soft = "starting = \"soft start\", ramp = \"20 s\", initial_voltage = 0.5";
 
@@ -214,7 +222,7 @@ sequence = {{ steps = [{}] }}
 run = {{ until = "14 s" }}
 )",
                            steps) +
-                   crank,
+                   light_crank,
                false);
   };
   const Result up =

@@ -18,22 +18,14 @@
 #include "studies/run/periods.h"
 #include "studies/run/run_findings.h"
 #include "studies/steady/steady.h"
+#include "tests/support/light_crank.h"
 #include "tests/support/scenes.h"
 
 namespace kurbel::repeating_motion_test {
 namespace {
 
-using test::figure, test::run;
+using test::figure, test::light_crank, test::run;
 constexpr double turn = 2 * std::numbers::pi;
-
-// A crank without mass, so that a turn is a cycle.
-constexpr const char* crank = R"(
-[crank]
-kind = "slider-crank"
-radius = "0.1 m"
-rod = "0.4 m"
-slider_mass = "1e-6 kg"
-)";
 
 // 10 N·m drive, and a load brakes in some turns of each period so that A_d = A_c. With inertia I: ω² = ω₀² + 2 A/I.
 // `pattern`: whether it brakes in a turn; it does in the first.
@@ -53,7 +45,7 @@ run = {{ start = {{ speed = "20 rad/s" }}, until = "{} s", accuracy = 1e-8 }}
 {}
 )",
                      inertia, 10 * static_cast<double>(pattern.size()) / ones, steps, turns * turn / 20, more) +
-         crank;
+         light_crank;
 }
 std::vector<bool> one_in(std::size_t n) {
   std::vector<bool> pattern(n);
@@ -125,7 +117,7 @@ line = ["motor", "flywheel", "crank"]
 motor = { kind = "dc shunt motor", stall_torque = "100 N*m", no_load_speed = "20 rad/s", inertia = "1 kg*m2" }
 flywheel = { kind = "flywheel", inertia = "200 kg*m2" }
 run = { start = { speed = "15 rad/s" }, until = "40 s" }
-)" + std::string(crank),
+)" + std::string(light_crank),
                        false);
   EXPECT_FALSE(r.periods.steady) << r.periods.verdict;
   EXPECT_EQ(r.periods.cycles, 1);
@@ -226,7 +218,7 @@ TEST(RepeatingMotion, ByTheClockIsSteadyWhereNoTurnIs) {
   expect_clocked(
       run(braked_by_the_clock(load + "sequence = { every = \"2 s\", steps = [{ at = \"0 s\", set = \"load\", to = "
                                      "1 }, { after = \"0.6 s\", set = \"load\", to = 0 }] }",
-                              crank)),
+                              light_crank)),
       "crank");
 }
 TEST(RepeatingMotion, OfALawOverTimeIsSteady) {
@@ -289,7 +281,7 @@ torque = "10 N*m"
 until = "{} s"
 )",
                      starting, ramp, more, until) +
-         crank;
+         light_crank;
 }
 // At full speed long before the voltage is: the run-up lasts as long as the ramp.
 TEST(RunUp, EndsNotBeforeTheRampOfASoftStart) {
