@@ -118,11 +118,9 @@ const Definition* find_symbol(std::string_view asked) {
   const std::size_t index = symbol.find_first_of("0123456789");  // on paper it is lowered: "R12"
   const bool has_index = index > 0 && index < symbol.size() && symbol.find('_') == std::string::npos &&
                          symbol.find_first_not_of("0123456789", index) == std::string::npos;
-  if (has_index && characters(symbol.substr(0, index)) == 1)
-    return find_symbol(symbol.substr(0, index) + "_" + symbol.substr(index));
-  constexpr std::string_view any_index = "_1";  // a symbol that has an index elsewhere: "aᶜ"
-  return symbol.find('_') == std::string::npos && symbol.size() < 8 ? find_symbol(symbol + std::string(any_index))
-                                                                    : nullptr;
+  return has_index && characters(symbol.substr(0, index)) == 1
+             ? find_symbol(symbol.substr(0, index) + "_" + symbol.substr(index))
+             : nullptr;
 }
 
 // What a page calls a figure.
