@@ -397,19 +397,6 @@ void say_shaking(Findings& to, Chapter in, const Forces& f) {
 
 }  // namespace
 
-std::vector<NamedPeak> peaks_of(const Forces& f, const ForceCycle& c) {
-  std::vector<NamedPeak> peaks;
-  for (const NamedPeak& r : c.reactions) {
-    if (f.balancing && r.means == "reaction_moment") continue;
-    peaks.push_back(r);
-    if (f.balancing) peaks.back().name = "reaction of the " + r.joint, peaks.back().joint.clear();
-  }
-  peaks.push_back({"balancing torque", "N*m", "balancing_torque", c.torque});
-  peaks.push_back({"shaking force", "N", "shaking_force", c.shaking_force});
-  peaks.push_back({"shaking moment", "N*m", "shaking_moment", c.shaking_moment});
-  return peaks;
-}
-
 Findings findings_of(const Forces& f) {
   const ForceCycle& front = f.front();
   Findings to = begin_findings(f, front, conclusion_of(f));

@@ -296,26 +296,6 @@ class Reducer : MachineOnBasis {
       for (Harmonic& h : r_.spectra[i].harmonics) h.amplitude.error.reset();
   }
   double within() const { return left_by_tables(scene_); }
-  // Within pieces: an edge may be located slightly later in either, so that the other is evaluated on both sides.
-  static double largest_difference(const Piecewise& f, const Piecewise& looser) {
-    const double hair = 1e-6 * looser.length();
-    const std::vector<double>& breaks = looser.breaks();
-    double most = rounding * f.largest();
-    for (std::size_t i = 0; i < f.pieces(); ++i) {
-      const double middle = 0.5 * (f.breaks()[i] + f.breaks()[i + 1]), x = middle * looser.end() / f.end();
-      const double here = f.value_in(i, middle);
-      double apart = std::abs(here - looser.value(x));
-      for (auto next = std::lower_bound(breaks.begin() + 1, breaks.end() - 1, x - hair);; ++next) {
-        const double lo = *(next - 1), hi = *next;
-        if (lo > x + hair) break;
-        apart = std::min(apart, std::abs(here - looser.value_in(at(next - 1 - breaks.begin()), std::clamp(x, lo, hi))));
-        if (next + 1 == breaks.end()) break;
-      }
-      most = std::max(most, apart);
-    }
-    return most;
-  }
-
   void add_notes() {
     for (const auto notes_of : {substitutes, mechanism_notes})
       for (const std::string& note : notes_of(model())) r_.notes.push_back(note);
@@ -399,7 +379,7 @@ class Reducer : MachineOnBasis {
                     with_unit(peak->load, r_.to_output && !r_.to_rocker ? "N" : "N*m", 4), peak->phi * 360 / turn));
   }
 
-  static constexpr double rounding = 1e-12;
+  static constexpr double rounding = rounding_of_reduction;
 
   const Scene scene_;
   const ReduceOptions& options_;

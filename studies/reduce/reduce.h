@@ -55,6 +55,9 @@ struct Spectrum {
 };
 // Exact sums over the pieces. Orders 0 … `orders` in steps of 2π/length.
 Spectrum spectrum(const std::string& name, const std::string& unit, const Piecewise& f, int orders);
+inline constexpr double rounding_of_reduction = 1e-12;  // of the largest value
+// Largest difference of one quantity from two samplings, at least that rounding.
+double largest_difference(const Piecewise& f, const Piecewise& looser);
 
 // An inertia of the drive, and an elastic part between two.
 struct ChainInertia {

@@ -1,8 +1,10 @@
 // spectrum.cpp — harmonics of a function of the angle by pieces.
+#include <algorithm>
 #include <cmath>
 
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
+#include "engine/numerics/index.h"
 #include "studies/reduce/reduce.h"
 
 namespace kurbel {
@@ -22,6 +24,26 @@ Spectrum spectrum(const std::string& name, const std::string& unit, const Piecew
   }
   s.captured = s.mean_square > 0 ? sum / s.mean_square : 1;
   return s;
+}
+
+// Within pieces: an edge may be located slightly later in either, so that the other is evaluated on both sides.
+double largest_difference(const Piecewise& f, const Piecewise& looser) {
+  const double hair = 1e-6 * looser.length();
+  const std::vector<double>& breaks = looser.breaks();
+  double most = rounding_of_reduction * f.largest();
+  for (std::size_t i = 0; i < f.pieces(); ++i) {
+    const double middle = 0.5 * (f.breaks()[i] + f.breaks()[i + 1]), x = middle * looser.end() / f.end();
+    const double here = f.value_in(i, middle);
+    double apart = std::abs(here - looser.value(x));
+    for (auto next = std::lower_bound(breaks.begin() + 1, breaks.end() - 1, x - hair);; ++next) {
+      const double lo = *(next - 1), hi = *next;
+      if (lo > x + hair) break;
+      apart = std::min(apart, std::abs(here - looser.value_in(at(next - 1 - breaks.begin()), std::clamp(x, lo, hi))));
+      if (next + 1 == breaks.end()) break;
+    }
+    most = std::max(most, apart);
+  }
+  return most;
 }
 
 }  // namespace kurbel
