@@ -11,11 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "engine/events/equations.h"
 #include "engine/model/model.h"
 #include "engine/scene/keys.h"
 #include "engine/scene/units.h"
 #include "studies/data/named.h"
 #include "studies/files/whole_file.h"
+#include "studies/run/run_findings.h"
 #include "studies/run/simulate.h"
 #include "studies/scenes/kinds.h"
 #include "studies/scenes/schema.h"
@@ -109,10 +111,12 @@ int check(const std::string& file, bool allow_files, const std::vector<std::stri
   const Scene scene = read(file, allow_files, set);
   const auto model = compile(scene, scene.effects);
   if (!scene.figures.empty()) figure_list(*model);  // refuses a channel that the machine does not have
+  Equations(model, false).start(0);                 // refuses a start that the machine cannot have
   const auto coordinates = model->free_shafts + model->twist_count();
   say(fmt::format("{}: valid; {} component{}, {} coordinate{} with effects: {}\n", file, scene.components.size(),
                   scene.components.size() == 1 ? "" : "s", coordinates, coordinates == 1 ? "" : "s",
                   scene.effects.describe()));
+  for (const std::string& note : notes_on_arcs(*model)) say(fmt::format("note: {}\n", note));
   return exit_done;
 }
 

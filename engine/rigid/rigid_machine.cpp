@@ -22,7 +22,7 @@ constexpr double farthest = 1e-5;      // rad: look-ahead if rounding hides the 
 constexpr int cells_a_turn = 720;      // of the search for edges
 constexpr double below_zero = -1e-11;  // of a guard of order one: a touch within the tables' error is no edge
 
-std::shared_ptr<const Model> checked(std::shared_ptr<const Model> model) {
+std::shared_ptr<const Model> checked(std::shared_ptr<const Model> model, bool has_range) {
   if (!model->elastic.empty())
     throw std::invalid_argument(fmt::format(
         "the machine is elastic (effects: {}); one angle and its speed describe it only with elasticity off",
@@ -42,7 +42,7 @@ std::shared_ptr<const Model> checked(std::shared_ptr<const Model> model) {
         model->internal_states.front().state.name, model->internal_states.front().component,
         model->internal_states.front().component));
   for (const Network::ShaftElement& e : model->network.elements)
-    if (std::isinf(e.element->cycle))
+    if (std::isinf(e.element->cycle) && !has_range)
       throw std::invalid_argument(
           fmt::format("the crank of \"{}\" rocks and never turns fully, so that there is no cycle over its angle; "
                       "follow its motion with kurbel run",
@@ -65,19 +65,26 @@ Effects rigid_effects() {
 
 RigidMachine::RigidMachine(const Scene& scene) : RigidMachine(compile(scene, rigid_effects())) {}
 
-RigidMachine::RigidMachine(std::shared_ptr<const Model> model)
-    : model_(checked(std::move(model))), equations_(model_, false), share_(model_->accounts.size()) {
+RigidMachine::RigidMachine(std::shared_ptr<const Model> model) : RigidMachine(std::move(model), std::nullopt) {}
+
+RigidMachine::RigidMachine(std::shared_ptr<const Model> model, const std::optional<AngleRange>& range)
+    : model_(checked(std::move(model), range.has_value())),
+      equations_(model_, false),
+      has_range_(range.has_value()),
+      share_(model_->accounts.size()) {
   for (const Network::ShaftElement& e : model_->network.elements)
     if (e.element->cycle > 0) mechanisms_.push_back({e.element.get(), model_->node_ratio[kurbel::at(e.node)], e.phase});
   const CyclePeriod cycle = cycle_of(*model_);
   cycle_ = cycle.angle;
-  periodic_ = cycle.periodic;
-  set_modes(0, 1);
+  periodic_ = cycle.periodic && !range;
+  if (range) begin_ = range->from, cycle_ = range->to - range->from;
+  const double somewhere = range ? begin_ + 0.5 * cycle_ : 0;
+  set_modes(somewhere, 1);
   // Both computations of the inertia must agree, to detect a mechanism without inertia_at. At the same angle: for a heavy
   // slider on a light crank the inertia at 0 is a thousandth of that at the angle of the modes.
-  fill_state(0, 1);
+  fill_state(somewhere, 1);
   const double whole = equations_.shaft_balance(0, 0, state_).inertia;
-  if (std::abs(constant_inertia() + mechanism_inertia(0).value - whole) > 1e-9 * whole)
+  if (std::abs(constant_inertia() + mechanism_inertia(somewhere).value - whole) > 1e-9 * whole)
     throw std::logic_error("a mechanism states another reduced inertia than its equations");
 }
 
@@ -176,7 +183,8 @@ class RigidMachine::EdgeSearch {
 
   void visit_one_period() {
     // Starts away from round angles, which are often edges.
-    const double cell = turn / cells_a_turn, begin = -0.37 * cell, end = begin + machine_.cycle_;
+    const double cell = turn / cells_a_turn, range = sign_ > 0 ? machine_.begin_ : -machine_.begin_ - machine_.cycle_,
+                 begin = machine_.has_range_ ? range : -0.37 * cell, end = begin + machine_.cycle_;
     machine_.set_modes(sign_ * begin, sign_);
     double here = begin, looked = ahead;
     while (here < end) {
@@ -230,6 +238,7 @@ class RigidMachine::EdgeSearch {
 
   void note(double s) {
     const double phi = sign_ * s, cycle = machine_.cycle_;
+    if (machine_.has_range_) return found_.push_back(phi);
     const double angle = machine_.periodic_ ? place_within(phi, cycle) : phi;
     found_.push_back(cycle - angle < 1e-13 ? 0 : angle);
   }

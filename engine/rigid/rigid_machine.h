@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,12 @@ namespace kurbel {
 // one: that has friction and losses (without_elasticity in engine/scene/effects.h).
 Effects rigid_effects();
 
+// A range of the reduction link's angle [rad].
+struct AngleRange {
+  double from = 0, to = 0;
+  bool holds(double phi) const { return from <= phi && phi <= to; }
+};
+
 class RigidMachine {
  public:
   // Compiles the scene with elasticity off. Throws SceneError if it is not a machine; std::invalid_argument if it has no
@@ -25,11 +32,16 @@ class RigidMachine {
   explicit RigidMachine(const Scene& scene);
   // From a rigid model; throws std::invalid_argument also if some elasticity is on.
   explicit RigidMachine(std::shared_ptr<const Model> model);
+  // The machine over a range, as that of a crank that rocks and never turns fully: it stands for the cycle, and nothing
+  // repeats. Without a range such a crank is refused (std::invalid_argument).
+  RigidMachine(std::shared_ptr<const Model> model, const std::optional<AngleRange>& range);
 
   const Model& model() const { return *model_; }
   // Angle of one cycle of the link [rad]: 2π; 4π with a four-stroke load; n · 2π with gears between the link and other
   // elements that depend on an angle; 2π for machines without a mechanism.
   double cycle() const { return cycle_; }
+  double begin() const { return begin_; }  // of the range [rad]; 0 of a cycle
+  bool has_range() const { return has_range_; }
   // False if no multiple of 2π up to 24 turns is a period of all elements: the machine is not periodic.
   bool periodic() const { return periodic_; }
   // Some torque depends on time (sources over time, windows): angle and speed are then not sufficient, and torques are those
@@ -63,7 +75,7 @@ class RigidMachine {
   // All quantities of the machine there at t = 0, with the pieces valid there. Valid until the next call; omega ≠ 0.
   const Snapshot& snapshot(double phi, double omega);
 
-  // Angles within [0, cycle()) at which the law of some torque changes in this direction of the link (±1): load edges, knots
+  // Angles within the cycle, [0, cycle()), or the range, at which the law of some torque changes in this direction of the link (±1): load edges, knots
   // of tables over angle or travel, dead centres of opposing loads; ascending, located to 1e-13 rad.
   std::vector<double> edges(int direction);
 
@@ -78,7 +90,8 @@ class RigidMachine {
 
   std::shared_ptr<const Model> model_;
   Equations equations_;
-  double cycle_ = 0;
+  double cycle_ = 0, begin_ = 0;
+  bool has_range_ = false;
   bool periodic_ = true;
   std::vector<Mechanism> mechanisms_;
   std::vector<double> state_, share_;

@@ -113,14 +113,15 @@ void MechanismStatics::add_friction(const PlanarLinkage& l, LinkageForces& f) co
 
 std::vector<double> MechanismStatics::turnings() const {
   std::vector<double> angles;
-  if (!sampler_ || data_.arc()) return angles;
-  constexpr int cells = 360;  // of a turn
-  const int turns = CrankCycle(data_).turns();
-  const double step = 2 * std::numbers::pi / cells, begin = 0.3 * step;  // off the angles where they like to lie
+  if (!sampler_) return angles;
+  const std::optional<CrankArc>& arc = data_.arc();
+  const int cells = 360 * (arc ? 1 : CrankCycle(data_).turns());
+  const double step = arc ? 2 * arc->reach() / cells : 2 * std::numbers::pi / 360;
+  const double begin = arc ? arc->middle - arc->reach() : 0.3 * step;  // off the angles where they like to lie
   for (std::size_t j = 0; j < sampler_->joints.size(); ++j) {
     const auto rate = [&](double phi) { return sampler_->rate(j, data_.linkage(phi)); };
     double before = rate(begin);
-    for (int i = 0; i < cells * turns; ++i) {
+    for (int i = 0; i < cells; ++i) {
       const double a = begin + step * i, after = rate(a + step);
       if (before * after < 0) angles.push_back(find_root(rate, a, before, a + step, after));
       before = after;

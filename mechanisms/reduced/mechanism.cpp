@@ -55,8 +55,9 @@ std::string limit_reached(const Mechanism& mechanism, int end) {
 void require_on_arc(const Mechanism& mechanism, double phi) {
   const CrankArc* arc = mechanism.arc();
   if (!arc || std::abs(arc->near(phi) - arc->middle) < arc->reach()) return;
-  throw std::runtime_error(fmt::format("\"{}\" cannot stand at φ = {:.4g}°: its {}; give another start angle or phase",
-                                       mechanism.name, arc->near(phi) / degree, words_of_arc(mechanism)));
+  throw std::runtime_error(fmt::format(
+      "\"{}\" cannot stand at φ = {:.4g}°: its {}; give another start angle or phase, in the middle {:.4g}°",
+      mechanism.name, arc->near(phi) / degree, words_of_arc(mechanism), arc->middle / degree));
 }
 
 // I_r has its minimum where the output is at rest or near a sample.

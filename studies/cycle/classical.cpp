@@ -4,9 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
+#include "engine/numerics/angles.h"
 #include "engine/numerics/index.h"
 #include "engine/return_map/periodicity.h"
+#include "engine/scene/units.h"
+#include "mechanisms/reduced/mechanism.h"
 
 namespace kurbel {
 namespace {
@@ -56,6 +61,35 @@ std::vector<std::string> beyond_the_rigid_machine(const Scene& scene, const Mome
   list_parts(*model, list);
   if (prescribed_node(*model) >= 0) list.emplace_back("a prescribed speed");
   return list;
+}
+
+std::optional<AngleRange> rocking_range(const Model& m, const std::optional<AngleRange>& given) {
+  std::optional<AngleRange> range;
+  for (const Network::ShaftElement& e : m.network.elements) {
+    const MechanismElement* const element = mechanism_of(e);
+    const CrankArc* const arc = element && !element->mechanism().is_force() ? element->mechanism().arc() : nullptr;
+    if (!arc) continue;
+    const double ratio = m.node_ratio[at(e.node)], period = turn / std::abs(ratio);
+    const double start = m.scene.run.start.on.empty() ? m.scene.run.start.angle : 0,
+                 middle = (arc->middle - e.phase) / ratio;
+    const double near = start + std::remainder(middle - start, period);
+    const auto about = [&](double part) {
+      const double half = part * arc->half / std::abs(ratio);
+      return AngleRange{near - half, near + half};
+    };
+    if (const AngleRange whole = about(CrankArc::share);
+        given && !(given->from < given->to && whole.holds(given->from) && whole.holds(given->to)))
+      throw std::invalid_argument(
+          fmt::format("--range: {:.4g}° to {:.4g}° is no range within the arc of \"{}\": its {}", given->from / degree,
+                      given->to / degree, e.component, words_of_arc(element->mechanism())));
+    const AngleRange part = about(share_of_arc);
+    range = range ? AngleRange{std::max(range->from, part.from), std::min(range->to, part.to)} : part;
+  }
+  if (given && !range)
+    throw std::invalid_argument("--range: for a crank that rocks; every crank of this machine turns fully");
+  if (range && !(range->from < range->to))
+    throw std::invalid_argument("the arcs of the machine's rocking cranks have no common range; give --range");
+  return given ? given : range;
 }
 
 CycleBasis MachineOnBasis::choose_basis(const Scene& scene, const Moment& at, std::optional<CycleBasis> wanted,

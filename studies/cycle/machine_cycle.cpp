@@ -102,10 +102,11 @@ void set_slopes(RigidMachine& machine, OperatingSpeed& found) {
 
 std::vector<double> cycle_edges(RigidMachine& machine) {
   constexpr double near = 1e-9;
-  std::vector<double> edges = {0};
+  const double end = machine.begin() + machine.cycle();
+  std::vector<double> edges = {machine.begin()};
   for (const double edge : machine.edges(1))
-    if (edge > edges.back() + near && edge < machine.cycle() - near) edges.push_back(edge);
-  edges.push_back(machine.cycle());
+    if (edge > edges.back() + near && edge < end - near) edges.push_back(edge);
+  edges.push_back(end);
   return edges;
 }
 

@@ -18,6 +18,7 @@
 #include "mechanisms/kinds/kinds.h"
 #include "mechanisms/link_forces/link_forces.h"
 #include "mechanisms/reduced/mechanism.h"
+#include "studies/cycle/classical.h"
 #include "studies/validity/outside_data.h"
 
 namespace kurbel {
@@ -75,6 +76,10 @@ std::shared_ptr<const Model> alone(const AskedMechanism& asked, const Effects& e
   return compile_network(std::move(network), bare, bare_machine(effects));
 }
 
+RigidMachine over(const std::shared_ptr<const Model>& model, const std::optional<AngleRange>& range) {
+  return {model, rocking_range(*model, range)};
+}
+
 }  // namespace
 
 // --- loads ---
@@ -93,8 +98,8 @@ AskedMechanism::AskedMechanism(const Scene& of, const std::string& wanted)
 
 const Mechanism& AskedMechanism::mechanism() const { return *find_mechanism(network, name); }
 
-OutputLoads::OutputLoads(const AskedMechanism& asked, const Effects& effects)
-    : machine_(alone(asked, effects)),
+OutputLoads::OutputLoads(const AskedMechanism& asked, const Effects& effects, const std::optional<AngleRange>& range)
+    : machine_(over(alone(asked, effects), range)),
       mechanism_(*find_mechanism(model().network, asked.name)),
       within_(link_forces_of(model().network, asked.name)) {
   const std::vector<SliderLoad>& loads = mechanism_.loads;
@@ -114,7 +119,11 @@ OutputLoads::OutputLoads(const AskedMechanism& asked, const Effects& effects)
 
 std::vector<double> OutputLoads::edges(int direction) {
   std::vector<double> all = machine_.edges(direction);
-  for (double begin = 0; begin < cycle() - 1e-9; begin += turn)
+  if (!repeats()) {  // angles of the range itself
+    all.insert(all.end(), added_.begin(), added_.end());
+    std::erase_if(all, [&](double e) { return !(begin() < e && e < begin() + cycle()); });
+  }
+  for (double begin = 0; repeats() && begin < cycle() - 1e-9; begin += turn)
     for (const double e : added_) {
       const double edge = begin + e - turn * std::floor(e / turn);
       if (std::none_of(all.begin(), all.end(),
@@ -182,21 +191,34 @@ ActingLoads acting_loads(const Model& model, std::size_t element, const Instant&
 
 // --- where the cycle is looked at ---
 
-std::vector<Abscissa> abscissae(double cycle, const std::vector<double>& edges, int direction, int rows_of_turn,
-                                double rows_end) {
-  const int turns = static_cast<int>(std::lround(cycle / turn)), cells = grid_of_turn * turns;
+namespace {
+
+// Cells of the grid and rows of all of it; those up to an angle are rows.
+struct Positions {
+  int cells = 0, rows = 0;
+  double rows_end = HUGE_VAL;
+};
+
+std::vector<Abscissa> abscissae(const AngleRange& range, bool repeats, const std::vector<double>& edges, int direction,
+                                const Positions& wanted) {
+  const double cycle = range.to - range.from;
+  const int cells = wanted.cells, rows = wanted.rows;
   std::vector<double> knots;
-  for (int i = 0; i <= cells; ++i) knots.push_back(cycle * i / cells);
+  // The middle of a range that begins at −φ is 0, without rounding.
+  const auto place = [&](int i, int of) {
+    const double phi = range.from + cycle * i / of;
+    return std::abs(phi) < 1e-14 * std::abs(range.from) ? 0 : phi;
+  };
+  for (int i = 0; i <= cells; ++i) knots.push_back(place(i, cells));
   knots.insert(knots.end(), edges.begin(), edges.end());
   std::sort(knots.begin(), knots.end());
   std::vector<Abscissa> all;
-  for (int i = 0; i <= cells; ++i) all.push_back({.phi = cycle * i / cells, .grid = true});
-  const int rows = rows_of_turn * turns;
-  for (int i = 0; i <= rows && cycle * i / rows <= rows_end * (1 + 1e-12); ++i) {
+  for (int i = 0; i <= cells; ++i) all.push_back({.phi = place(i, cells), .grid = true});
+  for (int i = 0; i <= rows && cycle * i / rows <= wanted.rows_end * (1 + 1e-12); ++i) {
     if (i * cells % rows == 0)
       all[index(i * cells / rows)].row = true;
     else
-      all.push_back({.phi = cycle * i / rows, .row = true});
+      all.push_back({.phi = place(i, rows), .row = true});
   }
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
     const double half = 0.5 * (knots[i + 1] - knots[i]), middle = 0.5 * (knots[i + 1] + knots[i]);
@@ -206,16 +228,29 @@ std::vector<Abscissa> abscissae(double cycle, const std::vector<double>& edges, 
   }
   for (const double edge : edges)
     for (const double phi : {edge - beside, edge + beside}) {
-      const double within = phi < 0 ? phi + cycle : phi > cycle ? phi - cycle : phi;
-      if (within > 0 && within < cycle) all.push_back({.phi = within, .side = phi < edge ? -direction : direction});
+      const double within = !repeats ? phi : phi < 0 ? phi + cycle : phi > cycle ? phi - cycle : phi;
+      if (within > range.from && within < range.to)
+        all.push_back({.phi = within, .side = phi < edge ? -direction : direction});
     }
+  const auto apart = [&](double phi, double edge) { return repeats ? std::remainder(phi - edge, cycle) : phi - edge; };
   for (Abscissa& a : all)
     if (a.grid || a.row)
       for (const double edge : edges)
-        if (std::abs(std::remainder(a.phi - edge, cycle)) < 0.5 * beside)
-          a.aside = 0.5 * direction * beside, a.side = 1;
+        if (std::abs(apart(a.phi, edge)) < 0.5 * beside) a.aside = 0.5 * direction * beside, a.side = 1;
   std::stable_sort(all.begin(), all.end(), [](const Abscissa& a, const Abscissa& b) { return a.phi < b.phi; });
   return all;
+}
+
+}  // namespace
+
+std::vector<Abscissa> abscissae(double cycle, const std::vector<double>& edges, int direction, int rows_of_turn,
+                                double rows_end) {
+  const int turns = static_cast<int>(std::lround(cycle / turn));
+  return abscissae({0, cycle}, true, edges, direction, {grid_of_turn * turns, rows_of_turn * turns, rows_end});
+}
+
+std::vector<Abscissa> abscissae(const AngleRange& range, const std::vector<double>& edges, int direction, int rows) {
+  return abscissae(range, false, edges, direction, {grid_of_turn, rows});
 }
 
 // --- peaks ---
@@ -262,7 +297,7 @@ Peak measured_peak_of(const std::vector<double>& phi, const std::vector<double>&
     return (i > 0 && phi[i] - phi[i - 1] < 2.5 * beside) || (i + 1 < phi.size() && phi[i + 1] - phi[i] < 2.5 * beside);
   };
   for (std::size_t i = 0; i < phi.size(); ++i)
-    if (i % 2 == 0 || at_edge(i)) wide_phi.push_back(phi[i]), wide.push_back(values[i]);
+    if (i % 2 == 0 || i + 1 == phi.size() || at_edge(i)) wide_phi.push_back(phi[i]), wide.push_back(values[i]);
   const double other = peak_of(wide_phi, wide, value).value;
   peak.error = std::abs(std::abs(peak.value) - std::abs(other)) + rounding_of_forces * scale;
   return peak;
@@ -357,9 +392,12 @@ PrescribedCycle prescribed_cycle(OutputLoads& loads, double speed) {
 
 MotionAlong steady_motion(OutputLoads& loads, double speed, int positions) {
   MotionAlong along;
-  along.cycle = loads.cycle();
+  along.begin = loads.begin(), along.cycle = loads.cycle(), along.repeats = loads.repeats();
   const int direction = speed < 0 ? -1 : 1;
-  along.where = abscissae(along.cycle, loads.edges(direction), direction, positions);
+  const std::vector<double> edges = loads.edges(direction);
+  along.where = along.repeats ? abscissae(along.cycle, edges, direction, positions)
+                              : abscissae({along.begin, along.begin + along.cycle}, edges, direction, positions);
+  if (!along.repeats && direction < 0) std::reverse(along.where.begin(), along.where.end());
   along.motion.assign(along.where.size(), {speed, 0, loads.left()});
   return along;
 }

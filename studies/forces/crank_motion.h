@@ -40,9 +40,11 @@ struct CrankMotion {
 class OutputLoads {
  public:
   // Only effects that are part of the machine are used.
-  OutputLoads(const AskedMechanism& asked, const Effects& effects);
+  OutputLoads(const AskedMechanism& asked, const Effects& effects, const std::optional<AngleRange>& range);
   const Model& model() const { return machine_.model(); }
   double cycle() const { return machine_.cycle(); }
+  double begin() const { return machine_.begin(); }
+  bool repeats() const { return !machine_.has_range(); }
   // Angles within the cycle where forces have jumps or kinks: edges of the loads, and those added for a turn.
   std::vector<double> edges(int direction);
   void add_edges(const std::vector<double>& of_a_turn) { added_ = of_a_turn; }
@@ -64,7 +66,9 @@ class OutputLoads {
   RigidMachine machine_;
   // Angle within one cycle; both ends are unchanged.
   double within(double phi) const {
-    return phi <= cycle() * (1 + 1e-12) ? phi : phi - cycle() * std::ceil(phi / cycle() * (1 - 1e-12) - 1);
+    return machine_.has_range() || phi <= cycle() * (1 + 1e-12)
+               ? phi
+               : phi - cycle() * std::ceil(phi / cycle() * (1 - 1e-12) - 1);
   }
 
   const Mechanism& mechanism_;            // of that machine
@@ -93,8 +97,10 @@ struct Abscissa {
 };
 // The angles, the same for any number of rows: an equidistant grid, three Gauss points between its points and the load
 // edges, a point on either side of each edge; and the rows, up to an angle. `direction`: ±1, order of the motion.
+// Over the cycle from 0; over a range of a crank that rocks there are as many as of a turn.
 std::vector<Abscissa> abscissae(double cycle, const std::vector<double>& edges, int direction, int rows_of_turn,
                                 double rows_end = HUGE_VAL);
+std::vector<Abscissa> abscissae(const AngleRange& range, const std::vector<double>& edges, int direction, int rows);
 
 struct MotionSample {
   double phi = 0;
@@ -125,8 +131,9 @@ void check(const ForcesOptions& options);
 
 // A cycle of the crank at the abscissae, in the order of time.
 struct MotionAlong {
-  double cycle = 0;  // [rad]
-  double time = 0;   // that it takes, with stops between positions [s]; 0: as the speeds at the positions say
+  double begin = 0, cycle = 0;  // where it begins, and its length [rad]
+  bool repeats = true;          // else a range of a crank that rocks
+  double time = 0;  // that it takes, with stops between positions [s]; 0: as the speeds at the positions say
   std::vector<Abscissa> where;
   std::vector<CrankMotion> motion;
 

@@ -70,9 +70,10 @@ constexpr double nothing_left = 1e-9;
 std::string why_no_efficiency(const ForceCycle& c, double spent, double uncertain) {
   constexpr double nothing = 0.5, enough = 0.05;  // of what is spent: an efficiency is not to be less certain
   if (!(uncertain <= nothing * spent))
-    return "no work goes through the mechanism in a cycle beyond its error: what its parts take they give back";
+    return fmt::format("no work goes through the mechanism {} beyond its error: what its parts take they give back",
+                       c.in_it());
   if (uncertain > enough * spent)
-    return fmt::format("the works of the cycle, {} spent, are only known to within {} together",
+    return fmt::format("the works {}, {} spent, are only known to within {} together", c.in_it(),
                        with_unit(spent, "J", 4), with_unit(uncertain, "J", 2));
   if (!(c.useful.value > uncertain))
     return c.harmful.value > 0 ? "no useful work is done: what goes in is lost" : "no useful work is done";

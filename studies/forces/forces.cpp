@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/rigid/rigid_machine.h"
 #include "engine/scene/units.h"
@@ -123,8 +124,9 @@ class Study {
         data_(asked.mechanism().data),
         effects_(effects_of(asked, options)),
         machine_(asked, effects_, options),
-        loads_(asked, effects_) {
+        loads_(asked, effects_, options.range) {
     describe(asked, out_);
+    out_.over_a_range = !loads_.repeats();
     out_.rocks = data_.rocks();
     out_.joints = *asked.network.data.find<MechanismJoints>(asked.name);
     out_.friction = effects_.joint_friction && asked.mechanism().joints;
@@ -139,7 +141,12 @@ class Study {
 
   Forces result() {
     std::optional<SimulatedMotion> simulated;
-    if (options_.simulate) {
+    if (options_.simulate && out_.over_a_range) {
+      out_.notes.push_back(
+          fmt::format("second problem omitted: the crank of \"{}\" rocks; forces along its motion over time are not "
+                      "assessed",
+                      out_.mechanism));
+    } else if (options_.simulate) {
       options_.watch.say("second problem: the steady motion");
       simulated = machine_.solve(loads_, {out_.notes, out_.complete, out_.diagnosis});
     }
@@ -167,7 +174,7 @@ class Study {
     const auto at = [&](double phi) {
       return linkage_position(*statics_, loads_, phi, {speed.value, 0, loads_.left()});
     };
-    out_.balancing = balancing_of(data_, *out_.prescribed, samples, at);
+    if (loads_.repeats()) out_.balancing = balancing_of(data_, *out_.prescribed, samples, at);
     out_.unbounded = unbounded_reactions(data_, loads_, speed.value);
     describe_first(speed, loads_, machine_, out_, *out_.prescribed);
     if (!options_.also) return;
@@ -298,7 +305,11 @@ void describe_first(const CrankSpeed& speed, const OutputLoads& loads, const Mac
                     ForceCycle& cycle) {
   cycle.label = "prescribed";
   cycle.description =
-      fmt::format("crank turning at {} throughout, {}", out.speed_unit.text(speed.value, 4), speed.source);
+      fmt::format("crank turning at {} {}, {}", out.speed_unit.text(speed.value, 4),
+                  loads.repeats() ? "throughout"
+                                  : fmt::format("between φ = {:.4g}° and {:.4g}°", loads.begin() / degree,
+                                                (loads.begin() + loads.cycle()) / degree),
+                  speed.source);
   for (const std::string& words : {out.unbounded.any() ? out.unbounded.words : "", loads.words_of_sequence()})
     if (!words.empty()) out.notes.push_back(words);
   for (const std::string& note : substitutes(machine.model())) out.notes.push_back(note);

@@ -12,10 +12,12 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "engine/base/estimate.h"
+#include "engine/rigid/rigid_machine.h"
 #include "engine/scene/scene.h"
 #include "mechanisms/joints/reaction_table.h"
 #include "mechanisms/linkages/slider_crank.h"
@@ -38,7 +40,9 @@ struct ForcesOptions {
   std::string mechanism;        // empty: the first
   // For the machine of the second problem; default: the scene's, with friction of joints that have any.
   std::optional<Effects> effects = {};
-  bool simulate = true;       // solve the second problem, too
+  // Of a crank that rocks: over these angles; default: rocking_range.
+  std::optional<AngleRange> range = {};
+  bool simulate = true;       // solve the second problem, too; not of a crank that rocks
   bool rigid_behind = false;  // also for the rigid machine, for curves on the page
   // Further angles for the first problem [rad], chosen when its loads are known.
   std::function<std::vector<double>(const PrescribedCycle&)> also = {};
@@ -115,7 +119,8 @@ struct LinkOfCycle {
 struct ForceCycle {
   std::string label;                                 // "prescribed", "simulated"
   std::string description;                           // for people
-  double cycle = 0;                                  // [rad]
+  double begin = 0, cycle = 0;                       // where the cycle or range begins, and its length [rad]
+  bool repeats = true;                               // else a range of a crank that rocks: it has no orders
   Estimate mean_speed, least_speed, greatest_speed;  // of the crank; the mean over the time [rad/s]
   Estimate closure;                                  // speed at the end − at the begin, over the mean: 0 if steady
   std::vector<PositionForces> positions;             // 720 per turn, equidistant, both ends, always
@@ -140,6 +145,8 @@ struct ForceCycle {
   double friction_residual = 0;            // largest residual of the friction laws
   std::optional<double> machine_residual;  // of the torque against the compiled machine's, over the largest
 
+  // "in a cycle", of a crank that rocks "over the range".
+  std::string_view in_it() const { return repeats ? "in a cycle" : "over the range"; }
   // Peak of the force in a joint.
   const Peak& reaction(std::size_t joint) const;
   Peak& reaction(std::size_t joint) { return const_cast<Peak&>(std::as_const(*this).reaction(joint)); }
@@ -179,8 +186,9 @@ struct PinFilm {
 
 struct Forces : SceneStudy {
   std::string mechanism, kind;
-  bool rocks = false;    // the output is an angle
-  bool elastic = false;  // the machine of the second problem is elastic
+  bool rocks = false;         // the output is an angle
+  bool over_a_range = false;  // the crank rocks
+  bool elastic = false;       // the machine of the second problem is elastic
   MechanismJoints joints;
   bool friction = false;  // joints have friction, and it is on
   std::optional<ForceCycle> prescribed, simulated;

@@ -34,6 +34,13 @@ Findings begin_findings(const Forces& f, const ForceCycle& front, const std::str
   return to;
 }
 
+std::string it(const ForceCycle& c) { return c.repeats ? "cycle" : "range"; }
+// " between φ = 30° and 100°" of a crank that rocks.
+std::string over_range(const ForceCycle& c) {
+  if (c.repeats) return {};
+  return fmt::format(" between φ = {:.4g}° and {:.4g}°", degrees(c.begin), degrees(c.begin + c.cycle));
+}
+
 // "press at 60 rpm: the main bearing (frame on crank) carries up to 10.45 kN (at 90.0°)", or that reactions have no bound.
 std::string begin_conclusion(const Forces& f, const ForceCycle& front) {
   const double range = front.greatest_speed.value - front.least_speed.value;
@@ -42,8 +49,8 @@ std::string begin_conclusion(const Forces& f, const ForceCycle& front) {
   if (f.unbounded.any()) return begin_unbounded(moving, f.unbounded);
   if (front.reactions.empty()) return moving + ": reactions in its joints are not assessed";
   const NamedPeak& first = front.reactions.front();
-  return fmt::format("{}: {} carries up to {} (at {})", moving, joint_in_words(first), in_words(first.peak, "N"),
-                     at_angle(first.peak));
+  return fmt::format("{}{}: {} carries up to {} (at {})", moving, over_range(front), joint_in_words(first),
+                     in_words(first.peak, "N"), at_angle(first.peak));
 }
 
 // "peaks at 1.48 kN·m", "is less than 2100 N"
@@ -57,7 +64,7 @@ std::string torque_in_words(const ForceCycle& c) {
 }
 
 std::string closure_in_words(const ForceCycle& c) {
-  if (std::abs(c.closure.value) < 1e-3) return {};
+  if (!c.repeats || std::abs(c.closure.value) < 1e-3) return {};
   return fmt::format("; the motion is not steady: over this cycle the crank's speed changes by {:+.2g} % of its mean",
                      100 * c.closure.value);
 }
@@ -89,11 +96,11 @@ std::string conclusion_of(const Forces& f) {
     text += fmt::format(", no force but a moment shakes the frame, up to {}", in_words(c.shaking_moment, "N*m"));
   if (f.friction)
     text += c.efficiency
-                ? fmt::format("; efficiency of the cycle {}{}", efficiency_text(c),
+                ? fmt::format("; efficiency of the {} {}{}", it(c), efficiency_text(c),
                               c.harmful.value > 0 ? fmt::format(", {} of {} lost", with_unit(c.harmful.value, "J", 4),
                                                                 with_unit(c.spent, "J", 4))
                                                   : "")
-                : fmt::format("; no efficiency of the cycle: {}", c.no_efficiency);
+                : fmt::format("; no efficiency of the {}: {}", it(c), c.no_efficiency);
   return text + closure_in_words(c) + ".";
 }
 
@@ -139,7 +146,7 @@ RowsOf<std::size_t> peak_table(const Forces& f) {
   std::vector<std::vector<NamedPeak>> of;
   for (const ForceCycle* c : f.problems()) of.push_back(peaks_of(f, *c));
   const std::vector<NamedPeak> first = of.front();
-  auto table = table_of("", "Largest values over the cycle", numbers_below(first.size()));
+  auto table = table_of("", fmt::format("Largest values over the {}", it(f.front())), numbers_below(first.size()));
   const auto unit_of = [&](std::size_t i) { return readable_unit(first[i].peak.value, first[i].unit); };
   table.text_in(1).only_for_people("largest", [&](std::size_t i) { return first[i].name; });
   for (std::size_t k = 0; k < of.size(); ++k)
@@ -156,9 +163,12 @@ Rows work_table(const Forces& f) {
   for (std::size_t i = 0; i < problems.front()->work.size(); ++i)
     for (const ForceCycle* c : problems)
       if (c->work[i].work.value != 0 && (acting.empty() || acting.back() != i)) acting.push_back(i);
-  auto table = table_of("", "Work done on the mechanism in a cycle", std::move(acting));
+  const std::string_view in_it = problems.front()->in_it();
+  auto table = table_of("", fmt::format("Work done on the mechanism {}", in_it), std::move(acting));
   table.text_in(2).always();
-  table.only_for_people("work of a cycle", [&](std::size_t i) { return problems.front()->work[i].name; })
+  table
+      .only_for_people(f.over_a_range ? "work" : "work of a cycle",
+                       [&](std::size_t i) { return problems.front()->work[i].name; })
       .only_for_people("line", [&](std::size_t i) { return problems.back()->work[i].kind; });
   for (const ForceCycle* c : problems)
     table.only_for_people(c->label, [&](std::size_t i) { return with_error(c->work[i].work, ""); });
@@ -246,7 +256,7 @@ void say_links(Findings& to, Chapter in, const Forces& f, const ForceCycle& c) {
                                                                     : fmt::format("{:.4g}", share.value);
     };
   };
-  to.say(in, table_of("", "Motion and inertia forces of the links, largest over the cycle", c.links)
+  to.say(in, table_of("", "Motion and inertia forces of the links, largest over the " + it(c), c.links)
                  .not_on_terminal()
                  .text_in(0)
                  .always()
@@ -312,12 +322,12 @@ Formulas mass_formula(const Forces& f) {
 void show_efficiency(Findings& to, Chapter in, const ForceCycle& c) {
   if (c.efficiency)
     to.show(in, Formulas()
-                    .add(fmt::format("Efficiency of the cycle, {} motion", c.label), "η = A_useful / (A_in − ΔT)",
+                    .add(fmt::format("Efficiency of the {}, {} motion", it(c), c.label), "η = A_useful / (A_in − ΔT)",
                          "η = {:.6g} J / {:.6g} J = {:.6g}", c.useful.value, c.spent, c.efficiency->value)
                     .note(fmt::format("{}. Harmful work {:.4g} J, kinetic energy gained {:.4g} J.", efficiency_text(c),
                                       c.harmful.value, or_zero(c.kinetic_change.value, 1e3 * c.spent))));
   else
-    to.show(in, Text{.title = fmt::format("No efficiency of the cycle, {} motion", c.label),
+    to.show(in, Text{.title = fmt::format("No efficiency of the {}, {} motion", it(c), c.label),
                      .body = c.no_efficiency + "."});
 }
 
@@ -334,23 +344,23 @@ void say_films(Findings& to, Chapter in, const Forces& f) {
   for (const PinFilm& p : f.films)
     to.figures.push_back({p.parameter, "least film parameter of the " + p.joint, "",
                           fmt::format("{}; at φ = {:.1f}°", p.words(), degrees(p.phi)), 0, "film_parameter"});
-  to.say(in,
-         table_of("films",
-                  fmt::format("Oil films of the pins, least over the cycle, {} motion (theory 8.16)", f.front().label),
-                  f.films)
-             .headed("oil films of the pins")
-             .text_in(0)
-             .always()
-             .column("joint", "pin", &PinFilm::joint)
-             .column("load", "load [N]", &PinFilm::load)
-             .column("sliding_speed", "sliding speed [m/s]", &PinFilm::speed,
-                     [](double v) { return read_as(std::abs(v) < 1e-9 ? 0.0 : v); })
-             .only_for_programs("film", &PinFilm::film)
-             .only_for_people("film [µm]", [](const PinFilm& p) { return with_error(1e6 * p.film, ""); })
-             .estimate("film_parameter", "λ", &PinFilm::parameter)
-             .column("boundary", "boundary λ < 1", &PinFilm::boundary, {.digits = 3})
-             .column("mixed", "mixed λ < 3", &PinFilm::mixed, {.digits = 3})
-             .column("friction", "friction", [](const PinFilm& p) { return p.words(); }));
+  to.say(in, table_of("films",
+                      fmt::format("Oil films of the pins, least over the {}, {} motion (theory 8.16)", it(f.front()),
+                                  f.front().label),
+                      f.films)
+                 .headed("oil films of the pins")
+                 .text_in(0)
+                 .always()
+                 .column("joint", "pin", &PinFilm::joint)
+                 .column("load", "load [N]", &PinFilm::load)
+                 .column("sliding_speed", "sliding speed [m/s]", &PinFilm::speed,
+                         [](double v) { return read_as(std::abs(v) < 1e-9 ? 0.0 : v); })
+                 .only_for_programs("film", &PinFilm::film)
+                 .only_for_people("film [µm]", [](const PinFilm& p) { return with_error(1e6 * p.film, ""); })
+                 .estimate("film_parameter", "λ", &PinFilm::parameter)
+                 .column("boundary", "boundary λ < 1", &PinFilm::boundary, {.digits = 3})
+                 .column("mixed", "mixed λ < 3", &PinFilm::mixed, {.digits = 3})
+                 .column("friction", "friction", [](const PinFilm& p) { return p.words(); }));
 }
 
 // --- all of it ---
@@ -384,6 +394,7 @@ void say_shaking(Findings& to, Chapter in, const Forces& f) {
   const std::string x = f.rocks ? "the ground link" : "the stroke";
   to.draw(in, [&f, x] { return shaking_plots(f, "along " + x, "across " + x); });
   for (const ForceCycle* c : f.problems()) {
+    if (!c->repeats) continue;
     to.draw(in, [c] { return harmonic_plot(*c); });
     to.say(in, harmonic_table(*c, c == &f.front()));
   }

@@ -182,6 +182,7 @@ Record cycle_record(const Forces& study, const ForceCycle& c) {
   report("work_harmful", c.harmful.value);
   report("works_error", larger_error(c.input, {0, larger_error(c.useful, c.harmful)}));
   report("positions_on_both_edges", c.both_edges);
+  if (!c.repeats) report("begin", c.begin);
   report("positions", each(c.rows, [&](P p) { return position_record(study, p); }));
   return r;
 }

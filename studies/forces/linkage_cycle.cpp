@@ -84,13 +84,14 @@ class Builder {
     found.scale = scale;
     return found;
   }
-  // From equidistant positions: all of them, and every other one.
+  // From equidistant positions, by trapezia: all of them, and every other one.
   Estimate mean(const LinkageQuantity& value, const LinkageQuantity& weight) const {
     const auto with_step = [&](std::size_t step) {
       double sum = 0, weights = 0;
-      for (std::size_t i = 0; i + 1 < cycle_.positions.size(); i += step) {
+      const std::size_t last = cycle_.positions.size() - 1;
+      for (std::size_t i = 0; i < last + (cycle_.repeats ? 0 : 1); i += step) {
         const PositionForces& p = cycle_.positions[i];
-        const double w = weight ? weight(p) : 1;
+        const double w = (weight ? weight(p) : 1) * (!cycle_.repeats && (i == 0 || i == last) ? 0.5 : 1);
         sum += w * value(p), weights += w;
       }
       return sum / weights;
@@ -225,6 +226,10 @@ void Builder::find_links() {
 }
 
 void Builder::find_orders() {
+  const LinkageQuantity torque = [](const PositionForces& p) { return p.forces.torque; };
+  cycle_.torque_mean = mean(torque, {});
+  cycle_.torque_mean.widen(rounding_of_forces * moment_);
+  if (!cycle_.repeats) return;
   const int turns = static_cast<int>(std::lround(along_.cycle / turn));
   const auto orders_of = [&](const LinkageQuantity& value, double scale) {
     return measured_harmonics(
@@ -238,10 +243,7 @@ void Builder::find_orders() {
   cycle_.shaking_x = orders_of([](const PositionForces& p) { return p.forces.shaking_force.x; }, inertia_);
   cycle_.shaking_y = orders_of([](const PositionForces& p) { return p.forces.shaking_force.y; }, inertia_);
   cycle_.shaking_couple = orders_of([](const PositionForces& p) { return p.forces.shaking_moment; }, inertia_moment_);
-  const LinkageQuantity torque = [](const PositionForces& p) { return p.forces.torque; };
   cycle_.torque_orders = orders_of(torque, moment_);
-  cycle_.torque_mean = mean(torque, {});
-  cycle_.torque_mean.widen(rounding_of_forces * moment_);
 }
 
 // The works of a cycle equal its change of kinetic energy: the residual is an error of every work.
@@ -305,7 +307,7 @@ PositionForces linkage_position(const MechanismStatics& statics, OutputLoads& lo
 ForceCycle linkage_cycle(const MechanismStatics& statics, OutputLoads& loads, const MotionAlong& motion,
                          std::vector<PositionForces>* samples) {
   ForceCycle cycle;
-  cycle.cycle = motion.cycle;
+  cycle.begin = motion.begin, cycle.cycle = motion.cycle, cycle.repeats = motion.repeats;
   Builder builder(statics, loads, motion, cycle);
   builder.build();
   if (samples) *samples = std::move(builder.samples());

@@ -1,4 +1,6 @@
 // modes_question.cpp — kurbel modes: natural frequencies, critical speeds, forced response.
+#include <tuple>
+
 #include "studies/modes/modes.h"
 #include "studies/question/question.h"
 
@@ -48,10 +50,7 @@ OptionsOf<ModesRequest> options() {
             .count = 2},
            OptionForm::several,
            [](ModesRequest& asked, const OptionValues& given) {
-             std::vector<double> range;
-             given.read(range);
-             if (!(range[0] < range[1])) given.refuse(given.text(), "the slower one of two speeds");
-             asked.slowest = range[0], asked.fastest = range[1];
+             std::tie(asked.slowest, asked.fastest) = given.range();
            })
       .add({.name = "orders",
             .doc = "highest excitation order (default: 12 … 24)",

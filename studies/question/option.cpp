@@ -92,6 +92,13 @@ void OptionValues::read(std::vector<double>& value) const {
   for (const std::string& one : texts_) value.push_back(quantity(one));
 }
 
+std::pair<double, double> OptionValues::range() const {
+  std::vector<double> ends;
+  read(ends);
+  if (!(ends[0] < ends[1])) refuse(text(), "the lesser value first");
+  return {ends[0], ends[1]};
+}
+
 void OptionValues::read(Effects& value) const { value = parse_effects(text(), scene_); }
 
 std::int64_t OptionValues::whole() const {

@@ -82,7 +82,8 @@ class OptionValues {
   void read(std::string& value) const { value = text(); }
   void read(std::vector<std::string>& value) const { value = texts_; }
   void read(std::vector<double>& value) const;
-  void read(Effects& value) const;  // one text: names joined by commas
+  std::pair<double, double> range() const;  // two quantities, the lesser first
+  void read(Effects& value) const;          // one text: names joined by commas
   template <class Whole>
   requires std::is_integral_v<Whole>
   void read(Whole& value) const { value = static_cast<Whole>(whole()); }

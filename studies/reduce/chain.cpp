@@ -58,7 +58,9 @@ Chain elastic_chain(const Model& model, int node) {
   for (const Network::ShaftElement& e : net.elements)
     if (e.element->cycle > 0) {
       add(at(e.node), e.element->mean_inertia, e.component);
-      chain.inertias[at(group[at(e.node)])].mechanism = true;
+      ChainInertia& i = chain.inertias[at(group[at(e.node)])];
+      i.mechanism = i.mechanism || e.element->mean_inertia > 0;
+      i.rocks = i.rocks || std::isinf(e.element->cycle);
     }
   for (ChainInertia& i : chain.inertias)
     if (i.ratio != 0) i.own = i.reduced / (i.ratio * i.ratio);

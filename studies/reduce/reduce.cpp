@@ -35,11 +35,15 @@ class Reducer : MachineOnBasis {
   }
 
   MachineReduction run() {
-    r_.basis = choose_basis(scene_, options_.at, options_.basis, !options_.speed);
+    const auto whole = compile_at(scene_, scene_.effects, options_.at);
+    if (const std::optional<AngleRange> range = rocking_range(*whole, options_.range))
+      look_over(*range);
+    else
+      r_.basis = choose_basis(scene_, options_.at, options_.basis, !options_.speed);
     r_.link = model().node_label(model().reduction_node);
     choose_target();
     if (machine_) {
-      r_.cycle = machine_->cycle();
+      r_.begin = machine_->begin(), r_.cycle = machine_->cycle();
       choose_speed(*machine_, options_, r_);
       if (!beyond_.empty() && !options_.speed && machine_->uses_speed())
         r_.speed_source += "; an estimate: " + omitted();
@@ -50,7 +54,8 @@ class Reducer : MachineOnBasis {
     for (const WorkAccount& account : m.accounts)
       r_.accounts.push_back(fmt::format("{} ({})", account.name, name_of(account.kind)));
     r_.constant_inertia = on_link() / (r_.to_ratio * r_.to_ratio);
-    for (int k = 0; k < options_.positions; ++k) r_.positions.push_back(position(k, r_.cycle * k / options_.positions));
+    for (int k = 0; k < options_.positions + (r_.over_a_range ? 1 : 0); ++k)
+      r_.positions.push_back(position(k, r_.begin + r_.cycle * k / options_.positions));
     add_curve();
     add_spectra();
     if (machine_) r_.outside_data = outside_data(*machine_, r_.speed);
@@ -64,6 +69,15 @@ class Reducer : MachineOnBasis {
   }
 
  private:
+  // A crank that rocks has no steady cycle over its angle.
+  void look_over(const AngleRange& range) {
+    if (options_.basis == CycleBasis::steady)
+      throw std::invalid_argument("--basis steady: a crank that rocks has no steady cycle over its angle");
+    beyond_ = beyond_the_rigid_machine(scene_, options_.at);
+    machine_.emplace(compile_at(scene_, classical_effects(scene_), options_.at), range);
+    r_.over_a_range = true;
+  }
+
   double on_link() const { return machine_ ? machine_->constant_inertia() : constant_inertia(*model_); }
 
   Orbit orbit_of(std::shared_ptr<const Model> model, int most_periods) const {
@@ -139,6 +153,14 @@ class Reducer : MachineOnBasis {
 
   // Whether an oscillating output may be the reduction link itself.
   void note_motion_of_output() {
+    if (r_.over_a_range && r_.turns_back) {
+      r_.notes.push_back(
+          fmt::format("{} moves to and fro: near its dead centres quantities reduced to it grow as 1/x′² and 1/x′, and "
+                      "figures hold "
+                      "between them",
+                      r_.to));
+      return;
+    }
     const bool rocks = r_.to_rocker;
     const std::string equation = rocks ? "I_r ε + ½ I_r′ ω² = M_d − M_c" : "m_r a + ½ m_r′ v² = F_d − F_c";
     r_.notes.push_back(
@@ -198,30 +220,34 @@ class Reducer : MachineOnBasis {
 
   double largest_ratio() {
     if (largest_ratio_ == 0)
-      for (int k = 0; k < 64; ++k)
-        largest_ratio_ = std::max(largest_ratio_, std::abs((*slider_)(turn * (k + 0.3) / 64).first));
+      for (int k = 0; k < 64; ++k) largest_ratio_ = std::max(largest_ratio_, std::abs((*slider_)(sample(k)).first));
     return largest_ratio_;
   }
 
   // In the sense of the greatest ratio: < 0 if it reverses.
   double least_ratio() {
-    double least = HUGE_VAL, sense = (*slider_)(0.3 * turn / 64).first < 0 ? -1 : 1;
-    for (int k = 0; k < 64; ++k) least = std::min(least, sense * (*slider_)(turn * (k + 0.3) / 64).first);
+    double least = HUGE_VAL, sense = (*slider_)(sample(0)).first < 0 ? -1 : 1;
+    for (int k = 0; k < 64; ++k) least = std::min(least, sense * (*slider_)(sample(k)).first);
     return least;
+  }
+  // One of 64 angles of a turn or of the range.
+  double sample(int k) const {
+    const bool ranged = machine_ && machine_->has_range();
+    return (ranged ? machine_->begin() : 0) + (ranged ? machine_->cycle() : turn) * (k + 0.3) / 64;
   }
 
   // Both sides of every edge are points of the curve.
   void add_curve() {
     constexpr int points = 720;
     std::vector<double> phis;
-    for (int k = 0; k <= points; ++k) phis.push_back(r_.cycle * k / points);
+    for (int k = 0; k <= points; ++k) phis.push_back(r_.begin + r_.cycle * k / points);
     for (const double edge : edges()) {
       phis.push_back(edge - 1e-7);
       phis.push_back(edge + 1e-7);
     }
     std::sort(phis.begin(), phis.end());
     for (const double phi : phis) {
-      if (phi < 0 || phi > r_.cycle) continue;
+      if (phi < r_.begin || phi > r_.begin + r_.cycle) continue;
       ReducedPosition p = position(0, phi);
       // Near a dead centre the reduced mass leaves the plot range.
       if (slider_ && std::abs(*p.ratio) < 0.15 * largest_ratio()) continue;
@@ -229,7 +255,7 @@ class Reducer : MachineOnBasis {
     }
   }
   std::vector<double> edges() {
-    if (machine_) return machine_->periodic() ? cycle_edges(*machine_) : std::vector<double>{};
+    if (machine_) return machine_->periodic() || machine_->has_range() ? cycle_edges(*machine_) : std::vector<double>{};
     std::vector<double> list = along_->cycle().speed.breaks();
     if (along_->cycle().sense < 0)
       for (double& s : list) s = r_.cycle - s;
@@ -301,7 +327,13 @@ class Reducer : MachineOnBasis {
       for (const std::string& note : notes_of(model())) r_.notes.push_back(note);
     if (machine_ && machine_->uses_time())
       r_.notes.push_back("some torque depends on time; the torques are those at t = 0");
-    if (machine_ && !machine_->periodic())
+    if (r_.over_a_range)
+      r_.notes.push_back(
+          fmt::format("a crank rocks: all is over a range of the angle of {}, {:.4g}° to {:.4g}°, and there are no "
+                      "harmonics; towards "
+                      "the ends of its arc what is reduced to it has no bound (--range gives another range)",
+                      r_.link, r_.begin / degree, (r_.begin + r_.cycle) / degree));
+    else if (machine_ && !machine_->periodic())
       r_.notes.push_back("the machine has no cycle, its parts never come back together; there are no harmonics");
     add_note_on_basis();
     add_note_on_peaks();

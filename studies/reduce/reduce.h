@@ -23,6 +23,8 @@ struct ReduceOptions {
   int orders = 12;              // of the harmonics, per turn of the reduction link
   Moment at = {};               // state of the machine at that moment; default: after all switching
   std::optional<CycleBasis> basis = {};  // default: as for MachineOnBasis
+  // Of a crank that rocks: over these angles of the reduction link; default: rocking_range.
+  std::optional<AngleRange> range = {};
   // Further angles [rad], 0 ≤ φ < cycle, chosen when all other results are known.
   std::function<std::vector<double>(const MachineReduction&)> also = {};
 };
@@ -64,7 +66,8 @@ struct ChainInertia {
   std::string name;           // components on it
   double own = 0, ratio = 1;  // on its own shaft [kg·m²]; its speed over the chosen shaft's
   double reduced = 0;         // own · ratio² [kg·m²]
-  bool mechanism = false;     // includes I_em by its mean
+  bool mechanism = false;     // includes I_em by its mean, of a crank that rocks
+  bool rocks = false;         // by its value in the middle of the arc
 };
 struct ChainSpring {
   std::string name;
@@ -95,7 +98,8 @@ struct MachineReduction : SceneStudy {
   double speed = 0;     // of the link, if torques depend on it [rad/s]
   std::string speed_source;
   CycleBasis basis = CycleBasis::classical;
-  double cycle = 0;                   // of the link [rad]
+  double begin = 0, cycle = 0;        // of the link: where the cycle or range begins, and its length [rad]
+  bool over_a_range = false;          // a crank rocks: the cycle is a range of its angle, and nothing repeats
   double sense = 1;                   // ±1, of its motion
   double constant_inertia = 0;        // on the chosen shaft [kg·m²]; of a slider: on the link
   std::vector<std::string> accounts;  // names with their line: "press.load (useful)"

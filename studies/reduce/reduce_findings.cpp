@@ -18,6 +18,13 @@ namespace {
 std::string number(double value, int digits = 6) { return read_as(value, {.digits = digits}); }
 std::string damping_text(double c) { return std::isnan(c) ? "not linear" : number(c, 5) + " N·m·s/rad"; }
 
+// " between 30° and 100° of its crank" where it rocks.
+std::string over_range(const MachineReduction& r) {
+  if (!r.over_a_range) return {};
+  return fmt::format(" between {:.4g}° and {:.4g}° of {}", r.begin * in_degrees, (r.begin + r.cycle) * in_degrees,
+                     r.link);
+}
+
 std::string conclusion_of(const MachineReduction& r) {
   const ReducedPosition *most = nullptr, *least = nullptr;
   for (const ReducedPosition& p : r.curve) {
@@ -34,7 +41,7 @@ std::string conclusion_of(const MachineReduction& r) {
   if (r.basis == CycleBasis::steady)
     return fmt::format("Reduced to {}, the machine has {} kg·m² along its steady cycle", r.to, range);
   const std::string constant = fmt::format("{:.5g}", r.constant_inertia);
-  return fmt::format("Reduced to {}, the machine has {} kg·m², {} at constant ratio", r.to, range,
+  return fmt::format("Reduced to {}, the machine has {} kg·m²{}, {} at constant ratio", r.to, range, over_range(r),
                      constant == range ? "all of it" : fmt::format("of which {} kg·m² turn", constant));
 }
 
@@ -278,6 +285,7 @@ void report_all(Findings& f, const MachineReduction& r) {
   f.record("speed_ratio", r.to_output ? Value() : Value(r.to_ratio));
   f.record("speed", Record{{"value", r.speed}, {"unit", "rad/s"}, {"source", r.speed_source}});
   f.record("units", Record{{"inertia", n.inertia_unit}, {"torque", n.torque_unit}, {"angle", "rad"}});
+  if (r.over_a_range) f.record("range", Record{{"from", r.begin}, {"to", r.begin + r.cycle}, {"unit", "rad"}});
   f.record("basis", r.basis == CycleBasis::classical ? "classical" : "steady");
   f.record("errors", Record{{"reduced_inertia", r.inertia_error},
                             {"driving_torque", r.drive_error},
@@ -294,8 +302,11 @@ Rows chain_table(const Chain& chain, const std::string& to, double slowest, doub
   std::vector<std::string> headings = {"part", "what", "own", "speed ratio i", "reduced", "own c", "reduced c"};
   for (std::size_t k = 0; k < chain.inertias.size(); ++k) {
     const ChainInertia& i = chain.inertias[k];
-    lines.push_back({fmt::format("J{}", k + 1), i.name + (i.mechanism ? " (mean)" : ""), number(i.own) + " kg·m²",
-                     number(i.ratio), number(i.reduced) + " kg·m²", "", ""});
+    lines.push_back({fmt::format("J{}", k + 1),
+                     i.name + (!i.mechanism ? ""
+                               : i.rocks    ? " (mid-arc)"
+                                            : " (mean)"),
+                     number(i.own) + " kg·m²", number(i.ratio), number(i.reduced) + " kg·m²", "", ""});
   }
   for (const ChainSpring& s : chain.springs)
     lines.push_back({fmt::format("k{}-{}", s.a + 1, s.b + 1), s.name, number(s.stiffness) + " N·m/rad", number(s.ratio),
@@ -321,8 +332,10 @@ Findings findings_of(const MachineReduction& r) {
   Findings f = Findings::of(r, fmt::format("Machine reduced to {}", r.to));
   f.speed_unit = r.speed_unit.name, f.opening = Findings::Opening::title_and_conclusion, f.reports_complete = false;
   f.key("constant inertia of the drive", {r.constant_inertia}, "constant_inertia", r.to_output ? "on " + r.link : "");
-  f.key("mean driving torque", r.mean_drive, "mean_driving_torque", "on " + r.link);
-  f.key("mean resisting torque", r.mean_load, "mean_resisting_torque", "on " + r.link);
+  if (!r.spectra.empty()) {  // else nothing repeats
+    f.key("mean driving torque", r.mean_drive, "mean_driving_torque", "on " + r.link);
+    f.key("mean resisting torque", r.mean_load, "mean_resisting_torque", "on " + r.link);
+  }
   f.conclude(true, conclusion_of(r));
   const bool any_speed = r.speed_source == "no torque depends on it";
   if (!any_speed)
@@ -330,8 +343,9 @@ Findings findings_of(const MachineReduction& r) {
                                  r.basis == CycleBasis::steady ? "along the motion at" : "at",
                                  r.speed_unit.text(r.speed, 4), r.link, r.speed_source));
   for (const std::string& sentence : r.outside_data) f.claim(Predicate::outside_data, sentence);
-  const Chapter cycle = f.chapter("Over the cycle"), drive = f.chapter("The drive as an elastic chain (theory 5.3)"),
-                spectra = f.chapter("Harmonics"), notes = f.chapter("Notes");
+  const Chapter cycle = f.chapter(r.over_a_range ? "Over the range" : "Over the cycle"),
+                drive = f.chapter("The drive as an elastic chain (theory 5.3)"), spectra = f.chapter("Harmonics"),
+                notes = f.chapter("Notes");
   report_all(f, r);
   if (any_speed) f.say(cycle, Sentences{.lines = {speed_text(r)}, .page = false});
   f.say(cycle, Sentences{.lines = {errors_text(r)}, .page = false});

@@ -34,22 +34,28 @@ std::string in_words(const DataRange& range, double x, const SpeedUnit& unit) {
   return speed ? unit.text(x, 6) : with_unit(x, range.unit, 6);
 }
 
-// Angles of a cycle: equidistant, and where the outputs of mechanisms reverse.
+// Angles of a cycle or a range: equidistant, and where the outputs of mechanisms reverse.
 std::vector<double> angles_of(const RigidMachine& machine) {
   constexpr int of_a_turn = 720;
   const double cycle = machine.cycle();
-  const auto cells = static_cast<int>(std::lround(of_a_turn * cycle / turn));
+  const auto cells = std::max(of_a_turn, static_cast<int>(std::lround(of_a_turn * cycle / turn)));
+  const AngleRange range{machine.begin(), machine.begin() + cycle};
   std::vector<double> angles;
-  for (int i = 0; i <= cells; ++i) angles.push_back(cycle * i / cells);
+  for (int i = 0; i <= cells; ++i) angles.push_back(machine.begin() + cycle * i / cells);
   for (const Network::ShaftElement& e : machine.model().network.elements) {
     const MechanismElement* const element = mechanism_of(e);
     const Mechanism* const mechanism = element ? &element->mechanism() : link_force_of(e);
     const double ratio = machine.model().node_ratio[at(e.node)];
     if (!mechanism || ratio == 0) continue;
     const double own = mechanism->cycle();
-    for (const double reversal : mechanism->travel.reversals)
+    for (const double reversal : mechanism->travel.reversals) {
+      if (machine.has_range()) {
+        if (const double phi = (reversal - e.phase) / ratio; range.holds(phi)) angles.push_back(phi);
+        continue;
+      }
       for (int k = 0; k < std::max(1.0, std::round(std::abs(ratio) * cycle / own)); ++k)
         angles.push_back(place_within((reversal + k * own - e.phase) / ratio, cycle));
+    }
   }
   return angles;
 }
