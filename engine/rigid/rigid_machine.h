@@ -4,6 +4,7 @@
 // All is reduced to the model's reduction link (the first mechanism's crank, else the line's first shaft).
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -23,6 +24,11 @@ Effects rigid_effects();
 struct AngleRange {
   double from = 0, to = 0;
   bool holds(double phi) const { return from <= phi && phi <= to; }
+  // The i-th of so many equal steps; the middle of −φ … φ is 0 without rounding.
+  double place(int i, int of) const {
+    const double phi = from + (to - from) * i / of;
+    return std::abs(phi) < 1e-13 * std::abs(from) ? 0 : phi;
+  }
 };
 
 class RigidMachine {

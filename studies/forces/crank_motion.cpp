@@ -204,21 +204,16 @@ std::vector<Abscissa> abscissae(const AngleRange& range, bool repeats, const std
   const double cycle = range.to - range.from;
   const int cells = wanted.cells, rows = wanted.rows;
   std::vector<double> knots;
-  // The middle of a range that begins at −φ is 0, without rounding.
-  const auto place = [&](int i, int of) {
-    const double phi = range.from + cycle * i / of;
-    return std::abs(phi) < 1e-14 * std::abs(range.from) ? 0 : phi;
-  };
-  for (int i = 0; i <= cells; ++i) knots.push_back(place(i, cells));
+  for (int i = 0; i <= cells; ++i) knots.push_back(range.place(i, cells));
   knots.insert(knots.end(), edges.begin(), edges.end());
   std::sort(knots.begin(), knots.end());
   std::vector<Abscissa> all;
-  for (int i = 0; i <= cells; ++i) all.push_back({.phi = place(i, cells), .grid = true});
+  for (int i = 0; i <= cells; ++i) all.push_back({.phi = range.place(i, cells), .grid = true});
   for (int i = 0; i <= rows && cycle * i / rows <= wanted.rows_end * (1 + 1e-12); ++i) {
     if (i * cells % rows == 0)
       all[index(i * cells / rows)].row = true;
     else
-      all.push_back({.phi = place(i, rows), .row = true});
+      all.push_back({.phi = range.place(i, rows), .row = true});
   }
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
     const double half = 0.5 * (knots[i + 1] - knots[i]), middle = 0.5 * (knots[i + 1] + knots[i]);

@@ -55,7 +55,7 @@ class Reducer : MachineOnBasis {
       r_.accounts.push_back(fmt::format("{} ({})", account.name, name_of(account.kind)));
     r_.constant_inertia = on_link() / (r_.to_ratio * r_.to_ratio);
     for (int k = 0; k < options_.positions + (r_.over_a_range ? 1 : 0); ++k)
-      r_.positions.push_back(position(k, r_.begin + r_.cycle * k / options_.positions));
+      r_.positions.push_back(position(k, whole_way().place(k, options_.positions)));
     add_curve();
     add_spectra();
     if (machine_) r_.outside_data = outside_data(*machine_, r_.speed);
@@ -78,6 +78,7 @@ class Reducer : MachineOnBasis {
     r_.over_a_range = true;
   }
 
+  AngleRange whole_way() const { return {r_.begin, r_.begin + r_.cycle}; }
   double on_link() const { return machine_ ? machine_->constant_inertia() : constant_inertia(*model_); }
 
   Orbit orbit_of(std::shared_ptr<const Model> model, int most_periods) const {
@@ -240,14 +241,14 @@ class Reducer : MachineOnBasis {
   void add_curve() {
     constexpr int points = 720;
     std::vector<double> phis;
-    for (int k = 0; k <= points; ++k) phis.push_back(r_.begin + r_.cycle * k / points);
+    for (int k = 0; k <= points; ++k) phis.push_back(whole_way().place(k, points));
     for (const double edge : edges()) {
       phis.push_back(edge - 1e-7);
       phis.push_back(edge + 1e-7);
     }
     std::sort(phis.begin(), phis.end());
     for (const double phi : phis) {
-      if (phi < r_.begin || phi > r_.begin + r_.cycle) continue;
+      if (!whole_way().holds(phi)) continue;
       ReducedPosition p = position(0, phi);
       // Near a dead centre the reduced mass leaves the plot range.
       if (slider_ && std::abs(*p.ratio) < 0.15 * largest_ratio()) continue;

@@ -41,7 +41,9 @@ std::string conclusion_of(const MachineReduction& r) {
   if (r.basis == CycleBasis::steady)
     return fmt::format("Reduced to {}, the machine has {} kg·m² along its steady cycle", r.to, range);
   const std::string constant = fmt::format("{:.5g}", r.constant_inertia);
-  return fmt::format("Reduced to {}, the machine has {} kg·m²{}, {} at constant ratio", r.to, range, over_range(r),
+  const std::string begin = fmt::format("Reduced to {}, the machine has {} kg·m²{}", r.to, range, over_range(r));
+  if (r.constant_inertia == 0) return begin;
+  return fmt::format("{}, {} at constant ratio", begin,
                      constant == range ? "all of it" : fmt::format("of which {} kg·m² turn", constant));
 }
 
