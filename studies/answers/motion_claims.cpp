@@ -7,13 +7,13 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "drivetrain/induction/induction_law.h"
 #include "engine/model/model.h"
 #include "engine/numerics/index.h"
 #include "engine/run/sources.h"
 #include "engine/scene/effects.h"
+#include "studies/answers/holders.h"
 
 namespace kurbel {
 namespace {
@@ -39,7 +39,8 @@ class Judge {
         watch_(watch),
         budget_(budget),
         shaft_(at(m_.shaft_of_node[at(m_.reduction_node)])),
-        now_(equations.snapshot(outcome.t, outcome.state)) {}
+        now_(equations.snapshot(outcome.t, outcome.state)),
+        holders_(equations, outcome.t) {}
 
   std::string link() const { return m_.network.nodes[at(m_.reduction_node)].component; }
   double angle() const { return now_.node_angle[m_.reduction_node]; }
@@ -81,22 +82,6 @@ class Judge {
     return stop == outcome_.events.rend() ? std::nullopt : std::optional(stop->t);
   }
 
-  // An applied brake, by command or always, whose shaft stands; null: none. `put_on`: only of those off at the start.
-  const std::string* brake_that_holds(bool put_on = false) const {
-    for (std::size_t e = 0; e < m_.network.elements.size(); ++e) {
-      const Network::ShaftElement& element = m_.network.elements[e];
-      if (m_.network.kind_of(element.component) != "brake" || !equations_.modes().active[e]) continue;
-      if (put_on && !(element.window.first_on() > 0)) continue;
-      if (equations_.at_standstill(at(m_.shaft_of_node[at(element.node)])) && command_of(element.component) > 0)
-        return &element.component;
-    }
-    return nullptr;
-  }
-  // Command in force at the end; 1 if there is none.
-  double command_of(const std::string& component) const {
-    const int c = m_.command_of(component);
-    return c < 0 ? 1 : equations_.modes().command[at(c)].at(outcome_.t, m_.scene.sequence);
-  }
   // Torque that would move the link if nothing held it, reduced to it [N·m]: all except what opposes motion.
   double acts() const {
     double torque = 0;
@@ -105,37 +90,6 @@ class Judge {
         torque += now_.sums.element_torque[e] * m_.node_ratio[at(m_.network.elements[e].node)];
     return torque;
   }
-  // Relations whose losses hold what they join.
-  std::vector<std::size_t> gears_that_hold() const {
-    std::vector<std::size_t> list;
-    for (std::size_t k = 0; k < m_.relations.size(); ++k)
-      if (m_.relations[k].loss_account >= 0 && equations_.modes().loss_direction[k] == 0) list.push_back(k);
-    return list;
-  }
-  // "gear", "bearing": components that oppose motion on standing shafts, and gears locked by their losses.
-  std::string holding_component() const {
-    if (const std::string* brake = brake_that_holds()) return fmt::format("\"{}\"", *brake);
-    std::set<std::string> names;
-    for (const Network::ShaftElement& e : m_.network.elements)
-      if (e.element->is.directional && equations_.at_standstill(at(m_.shaft_of_node[at(e.node)])))
-        names.insert(e.component);
-    for (const std::size_t gear : gears_that_hold())
-      names.insert(m_.network.relations[at(m_.relations[gear].relation)].component);
-    std::string text;
-    for (const std::string& name : names) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name);
-    return text;
-  }
-
-  // "the load", if a load is among those that hold, or nothing is known; else their names.
-  std::string holders_beside(const char* load) const {
-    const bool any_load = std::any_of(m_.network.elements.begin(), m_.network.elements.end(), [&](const auto& e) {
-      return (e.element->account == Account::useful || e.element->cycle > 0) &&
-             equations_.at_standstill(at(m_.shaft_of_node[at(e.node)]));
-    });
-    const std::string names = any_load ? std::string() : holding_component();
-    return names.empty() ? load : names;
-  }
-
   // --- claims ---
 
   // The next step of the sequence waits for an angle of a shaft that is held.
@@ -150,13 +104,13 @@ class Judge {
   std::optional<Claim> stalls(Claims& contacts) const {
     const MotorTorque* motor = standing_motor(is_held() && waits_in_vain() ? turns_back_from : stands);
     const std::optional<double> since = is_held() ? rest() : std::optional(recorder_.turned_at());
-    if (!rests() || !since || (is_commanded() && !motor) || brake_that_holds()) return {};
+    if (!rests() || !since || (is_commanded() && !motor) || holders_.brake()) return {};
     if (!is_held() && (!motor || *since == 0)) return {};
     const double torque = drive();
     if (torque == 0) return {};
     std::string why = fmt::format(
         "{} can hold the {:.4g} N·m that drive there, and holds them to the end",
-        holders_beside(m_.effects.joint_friction ? "the loads and the friction in joints" : "the load"), torque);
+        holders_.beside(m_.effects.joint_friction ? "the loads and the friction in joints" : "the load"), torque);
     for (Claim& claim : contacts)
       if (claim.predicate == Predicate::slips_to_the_end && m_.network.kind_of(claim.of) != "brake")
         why = claim.text, claim.in_conclusion = false;
@@ -258,9 +212,9 @@ class Judge {
 
   // Held from the start although something drives, and not by an applied brake.
   std::optional<Claim> never_starts(double fastest) const {
-    if (is_commanded() || !rests() || rest() || fastest > stands * m_.speed_scale || brake_that_holds()) return {};
+    if (is_commanded() || !rests() || rest() || fastest > stands * m_.speed_scale || holders_.brake()) return {};
     if (!(std::abs(drive()) > drives * m_.torque_scale)) return {};
-    const std::string holders = holders_beside("its loads");
+    const std::string holders = holders_.beside("its loads");
     const bool one = holders.starts_with('"') && holders.find(',') == std::string::npos;
     return claimed(Predicate::does_not_start,
                    fmt::format("\"{}\" does not start: {} {} the {} N·m that drive it", link(), holders,
@@ -271,11 +225,11 @@ class Judge {
   // By an applied brake, or by friction against the acting torque; a link that never moved is reported as such.
   std::optional<Claim> held(double fastest) const {
     const bool moves = std::abs(speed()) > dust * m_.speed_scale, ever = fastest > dust * m_.speed_scale;
-    if (!rests() && (moves || (ever && gears_that_hold().empty()))) return {};
+    if (!rests() && (moves || (ever && holders_.gears().empty()))) return {};
     const bool moved = fastest > stands * m_.speed_scale, anything_acts = std::abs(acts()) > drives * m_.torque_scale;
-    const std::string holders = holding_component();
+    const std::string holders = holders_.components();
     std::optional<Claim> claim;
-    if (!holders.empty() && (anything_acts || brake_that_holds())) {
+    if (!holders.empty() && (anything_acts || holders_.brake())) {
       const std::string against =
           anything_acts ? fmt::format(" against the {:.4g} N·m that act on it", std::abs(acts())) : "";
       claim = claimed(Predicate::held_by, fmt::format("\"{}\" is held by {}{}", link(), holders, against), link(),
@@ -294,9 +248,9 @@ class Judge {
     const bool nearly_rests = trembles || (!recorder_.swings() && creeps());
     const MotorTorque* motor = standing_motor(pushes, nearly_rests ? turns_back_from : stands);
     if (!motor || rests()) return {};
-    const std::string* brake = brake_that_holds();
+    const std::string* brake = holders_.brake();
     const bool own = brake && m_.shaft_of_node[at(motor->node)] == m_.shaft_of_node[at(m_.network.ports.at(*brake).in)];
-    std::string holders = own || nearly_rests ? holding_component() : std::string();
+    std::string holders = own || nearly_rests ? holders_.components() : std::string();
     if (holders.empty() && nearly_rests) holders = "its loads";
     if (holders.empty()) return {};
     const std::string clause =
@@ -312,10 +266,10 @@ class Judge {
   std::optional<Claim> never_completes_a_cycle(const Result& r, double fastest) const {
     const auto is_whole = [&](const CycleRecord& c) { return std::abs(c.turned) > 0.5 * m_.cycle; };
     if (is_commanded() || std::any_of(r.cycles.begin(), r.cycles.end(), is_whole) || m_.cycle == 0 ||
-        r.periods.run_down_begin || brake_that_holds(true))
+        r.periods.run_down_begin || holders_.brake(true))
       return {};
     if (std::abs(speed()) > nearly * fastest || !(std::abs(drive()) > drives * m_.torque_scale)) return {};
-    const std::string* brake = brake_that_holds();
+    const std::string* brake = holders_.brake();
     return claimed(
         Predicate::does_not_get_round,
         fmt::format(
@@ -399,6 +353,7 @@ class Judge {
   double budget_;
   std::size_t shaft_;
   const Snapshot& now_;
+  Holders holders_;
 };
 
 }  // namespace

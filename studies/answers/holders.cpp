@@ -1,0 +1,57 @@
+// holders.cpp — what stands at the end, and opposes motion.
+#include "studies/answers/holders.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "engine/model/model.h"
+#include "engine/numerics/index.h"
+
+namespace kurbel {
+
+bool Holders::stands(int node) const { return equations_.at_standstill(at(m_.shaft_of_node[at(node)])); }
+
+double Holders::command_of(const std::string& component) const {
+  const int c = m_.command_of(component);
+  return c < 0 ? 1 : equations_.modes().command[at(c)].at(end_, m_.scene.sequence);
+}
+
+const std::string* Holders::brake(bool put_on) const {
+  for (std::size_t e = 0; e < m_.network.elements.size(); ++e) {
+    const Network::ShaftElement& element = m_.network.elements[e];
+    if (m_.network.kind_of(element.component) != "brake" || !equations_.modes().active[e]) continue;
+    if (put_on && !(element.window.first_on() > 0)) continue;
+    if (stands(element.node) && command_of(element.component) > 0) return &element.component;
+  }
+  return nullptr;
+}
+
+std::vector<std::size_t> Holders::gears() const {
+  std::vector<std::size_t> list;
+  for (std::size_t k = 0; k < m_.relations.size(); ++k)
+    if (m_.relations[k].loss_account >= 0 && equations_.modes().loss_direction[k] == 0) list.push_back(k);
+  return list;
+}
+
+std::string Holders::components() const {
+  if (const std::string* applied = brake()) return fmt::format("\"{}\"", *applied);
+  std::set<std::string> names;
+  for (const Network::ShaftElement& e : m_.network.elements)
+    if (e.element->is.directional && stands(e.node)) names.insert(e.component);
+  for (const std::size_t gear : gears()) names.insert(m_.network.relations[at(m_.relations[gear].relation)].component);
+  std::string text;
+  for (const std::string& name : names) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name);
+  return text;
+}
+
+std::string Holders::beside(const char* load) const {
+  const bool any_load = std::any_of(m_.network.elements.begin(), m_.network.elements.end(), [&](const auto& e) {
+    return (e.element->account == Account::useful || e.element->cycle > 0) && stands(e.node);
+  });
+  const std::string names = any_load ? std::string() : components();
+  return names.empty() ? load : names;
+}
+
+}  // namespace kurbel

@@ -1,0 +1,34 @@
+// holders.h — what holds a machine at the end of a run: brakes, gears locked by their losses, what opposes motion.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/run/run.h"
+
+namespace kurbel {
+
+class Holders {
+ public:
+  // `equations`: in the modes at the run's end `t`; they must outlive it.
+  Holders(const Equations& equations, double t) : equations_(equations), m_(equations.model()), end_(t) {}
+
+  // An applied brake, by command or always, whose shaft stands; null: none. `put_on`: only of those off at the start.
+  const std::string* brake(bool put_on = false) const;
+  // Relations whose losses hold what they join.
+  std::vector<std::size_t> gears() const;
+  // "gear", "bearing": the brake, else components that oppose motion on standing shafts and gears locked by their losses.
+  std::string components() const;
+  // `load`, if one is among those that hold, or nothing is known; else their names.
+  std::string beside(const char* load) const;
+
+ private:
+  double command_of(const std::string& component) const;  // in force at the end; 1 if there is none
+  bool stands(int node) const;
+
+  const Equations& equations_;
+  const Model& m_;
+  double end_;
+};
+
+}  // namespace kurbel
