@@ -160,6 +160,9 @@ class Search {
   std::string at_rest() {
     const auto [hundredth, thousandth, motion] = last_motion_.times();
     if (motion == 0) return with_holders("the machine stands from its start on");
+    if (thousandth == 0)
+      return with_holders(
+          fmt::format("the machine stays at rest: \"{}\" never reaches 0.1 % of its rated speed", link()));
     if (const Event* rest = rest_of(events_, {hundredth, thousandth, motion}, m_))
       return with_holders(fmt::format("the machine comes to rest at {:.4g} s and stays there", rest->t));
     return with_holders(

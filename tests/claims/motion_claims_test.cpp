@@ -445,6 +445,20 @@ TEST(Steady, NamesABrakeThatIsOn) {
   EXPECT_TRUE(has(heavy, "A stronger drive, a higher ratio, or a lighter load is needed")) << heavy;
 }
 
+// 40 N·m·sin φ balance the motor's 20 N·m at 30°: from 29.9° it moves at 0.002 rad/s, usual are 100, until the bearing
+// holds it. On the mean nothing but the bearing's 0.05 N·m is against the motor.
+TEST(Steady, SaysOfWhatNeverTurnedNoRunDown) {
+  const Scene scene = test::scene_from(R"(
+    line = ["motor", "arm"]
+    motor = { kind = "dc shunt motor", stall_torque = "20 N*m", no_load_speed = "100 rad/s", inertia = "0.5 kg*m2" }
+    arm = { kind = "load", inertia = "0.5 kg*m2", table = { over = "angle", formula = "sin(phi)*40 [N*m]" } }
+    drag = { kind = "bearing", on = "motor", torque = "0.05 N*m" }
+    run = { start = { angle = "29.9 deg" } }
+  )");
+  const std::string why = steady(scene, {scene.effects}, {.start_search = false}).diagnosis;
+  EXPECT_TRUE(has(why, "the machine stays at rest: \"motor\" never reaches 0.1 % of its rated speed")) << why;
+}
+
 TEST(Steady, WarnsOfAStartWhoseShaftsDisagree) {
   const Scene scene = test::scene_from(R"(
     line = ["motor", "coupling", "wheel"]
