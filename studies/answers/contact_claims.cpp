@@ -69,14 +69,22 @@ class ContactJudge {
     const std::string& component = owner_of(joint);
     slipping_.insert(component);
     add(claims_, claimed(Predicate::slips_to_the_end,
-                         fmt::format("\"{}\" slips to the end, by {} under the {} N·m that it can transmit", component,
-                                     text(slip), std::abs(torque)),
+                         fmt::format("\"{}\" slips to the end, by {} under the {} N·m that it can transmit{}",
+                                     component, text(slip), std::abs(torque), backwards(joint)),
                          component,
                          {.at = outcome_.t,
                           .value = std::abs(slip),
                           .limit = 0,
                           .error = error_of_speeds(component),
                           .unit = "rad/s"}));
+  }
+  // Of a machine without a cycle, whose loads do not pass: its far side turns against the side that drives it.
+  std::string backwards(const ElasticJoint& joint) const {
+    constexpr double turns_from = 1e-2;  // of the usual speed
+    const double slow = turns_from * joint.gain_a * m_.shafts[at(joint.shaft_a)].speed_scale;
+    const double a = joint.gain_a * now_.now.speed[joint.shaft_a], b = joint.gain_b * now_.now.speed[joint.shaft_b];
+    if (m_.cycle > 0 || !(a * b < 0) || !(std::min(std::abs(a), std::abs(b)) > std::abs(slow))) return {};
+    return fmt::format(", and what it drives turns backwards, at {}", m_.scene.speed_unit.text(b));
   }
   double slip_of(const ElasticJoint& joint) const {
     return joint.gain_a * now_.now.speed[joint.shaft_a] - joint.gain_b * now_.now.speed[joint.shaft_b];
@@ -97,9 +105,13 @@ class ContactJudge {
     const ElasticJoint& e = m_.elastic[joint.elastic];
     const std::string& name = joint.component;
     if (joint.kind == "one-way clutch") {
+      const double ahead_now = std::abs(slip_of(e));  // of a link that has come to rest
+      const bool goes_on = result_.periods.standstill && ahead_now > slipping_from * std::abs(joint.usual_speed);
       for (const SlipRecorder::Spell* ahead : {&joint.engaging, &joint.let_go})
         spell(Predicate::freewheel_overruns, joint, *ahead,
-              fmt::format("\"{}\" lets its driven side run ahead, first at {:.4g} s", name, ahead->first), true);
+              fmt::format("\"{}\" lets its driven side run ahead, first at {:.4g} s{}", name, ahead->first,
+                          goes_on ? fmt::format(", by {} at the end", text(ahead_now)) : ""),
+              !goes_on);
       return;
     }
     if (joint.closed && equations_.modes().slip[joint.elastic] != 0) slips_to_the_end(e, slip_of(e));

@@ -5,13 +5,40 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "engine/model/model.h"
 #include "engine/numerics/index.h"
 
 namespace kurbel {
 
-bool Holders::stands(int node) const { return equations_.at_standstill(at(m_.shaft_of_node[at(node)])); }
+std::vector<char> shafts_joined_to(const Model& m, std::size_t shaft, const std::function<bool(std::size_t)>& joins) {
+  std::vector<char> joined(m.shafts.size());
+  joined[shaft] = 1;
+  bool more = true;
+  const auto join = [&](int a, int b) {
+    if (joined[at(a)] == joined[at(b)] || std::max(at(a), at(b)) >= m.free_shafts) return;
+    joined[at(a)] = joined[at(b)] = 1, more = true;
+  };
+  while (std::exchange(more, false)) {
+    for (const ShaftRelation& relation : m.relations)
+      for (const ShaftGain& part : relation.motion) join(relation.motion.front().shaft, part.shaft);
+    for (std::size_t j = 0; j < m.elastic.size(); ++j)
+      if (joins(j)) join(m.elastic[j].shaft_a, m.elastic[j].shaft_b);
+  }
+  return joined;
+}
+
+Holders::Holders(const Equations& equations, double t, std::size_t shaft)
+    : equations_(equations), m_(equations.model()), end_(t), joined_(shafts_joined_to(m_, shaft, [&](std::size_t j) {
+        const ElasticJoint& joint = m_.elastic[j];
+        return !joint.springless && !(joint.slips && equations_.modes().slip[j] != 0);
+      })) {}
+
+bool Holders::stands(int node) const {
+  const std::size_t shaft = at(m_.shaft_of_node[at(node)]);
+  return joined_[shaft] != 0 && equations_.at_standstill(shaft);
+}
 
 double Holders::command_of(const std::string& component) const {
   const int c = m_.command_of(component);
@@ -52,6 +79,12 @@ std::string Holders::beside(const char* load) const {
   });
   const std::string names = any_load ? std::string() : components();
   return names.empty() ? load : names;
+}
+
+bool Holders::any() const {
+  for (std::size_t k = 0; k < m_.free_shafts; ++k)
+    if (joined_[k] != 0 && equations_.at_standstill(k)) return true;
+  return false;
 }
 
 }  // namespace kurbel

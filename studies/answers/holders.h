@@ -1,6 +1,7 @@
 // holders.h — what holds a machine at the end of a run: brakes, gears locked by their losses, what opposes motion.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -8,10 +9,15 @@
 
 namespace kurbel {
 
+// By shaft: which ones gears, and those elastic joints for which it is true, join to this one.
+std::vector<char> shafts_joined_to(const Model& model, std::size_t shaft,
+                                   const std::function<bool(std::size_t)>& joins);
+
 class Holders {
  public:
-  // `equations`: in the modes at the run's end `t`; they must outlive it.
-  Holders(const Equations& equations, double t) : equations_(equations), m_(equations.model()), end_(t) {}
+  // Of what gears, springs, belts and closed clutches join to this shaft. `equations`: in the modes at the run's end `t`;
+  // they must outlive it.
+  Holders(const Equations& equations, double t, std::size_t shaft);
 
   // An applied brake, by command or always, whose shaft stands; null: none. `put_on`: only of those off at the start.
   const std::string* brake(bool put_on = false) const;
@@ -21,6 +27,8 @@ class Holders {
   std::string components() const;
   // `load`, if one is among those that hold, or nothing is known; else their names.
   std::string beside(const char* load) const;
+  // Whether any shaft among them stands.
+  bool any() const;
 
  private:
   double command_of(const std::string& component) const;  // in force at the end; 1 if there is none
@@ -29,6 +37,7 @@ class Holders {
   const Equations& equations_;
   const Model& m_;
   double end_;
+  std::vector<char> joined_;  // by shaft
 };
 
 }  // namespace kurbel

@@ -21,7 +21,7 @@ void LinkRecorder::begin(double t, std::span<const double> y, Equations& equatio
   if (began_) return;
   began_ = true;
   angle_ = foremost_ = hindmost_ = late_begin_ = low_ = high_ = equations.angle_with_turns(at(m_.reduction_angle), y);
-  turned_at_ = t, late_from_ = t + late * (until_ - t);
+  begin_ = turned_at_ = t, late_from_ = t + late * (until_ - t);
 }
 
 void LinkRecorder::step(StepView& view) {
@@ -42,13 +42,19 @@ void LinkRecorder::step(StepView& view) {
   foremost_ = std::max(foremost_, angle_), fastest_ = std::max(fastest_, std::abs(speed));
   if (std::abs(speed) > least_sense * m_.speed_scale) {
     const double fell = foremost_ - hindmost_;
-    if (sense > 0 && fell > std::numbers::pi && fell_back() < 0.5 * fell) turned_forwards_ = view.t();
+    if (sense > 0 && fell > std::numbers::pi && fell_back() < 0.5 * fell)
+      fell_before_ = std::max(fell_before_, fell), foremost_ = hindmost_ = angle_;
     if (sense < 0 && sense_ >= 0) backwards_since_ = view.t();
     sense_ = sense;
   }
+  const bool drives = sources_.drive(equations.modes().active);
+  if (std::exchange(driven_, drives) && !drives) {
+    fell_before_ = 0;
+    if (speed > 0) foremost_ = hindmost_ = angle_;
+  }
   if (speed >= 0)
     driven_back_ = 0;
-  else if (sources_.drive(equations.modes().active))
+  else if (drives)
     driven_back_ = std::min(driven_back_, speed);
   const double least = least_turning * m_.speed_scale;
   const auto speed_at = [&](double t) { return view.at(t, state); };
@@ -60,10 +66,14 @@ void LinkRecorder::step(StepView& view) {
     hindmost_ = extreme_ > foremost_ ? extreme_ : std::min(hindmost_, extreme_);
     foremost_ = std::max(foremost_, extreme_);
   }
+  if (from == 0 && to != 0) reversal_ = view.t_previous(), extreme_ = before;  // it rested where it may turn back
   const auto beyond = [&](double t) { return std::abs(link.gain * speed_at(t)) - least; };
   constexpr int parts = 8;
   double after = view.t(), beyond_after = std::abs(speed) - least;
-  if (turns) turned_at_ = after;
+  if (turns) {
+    turned_at_ = after;
+    if (std::exchange(turning_, sense) == -sense) turn_before_ = std::exchange(last_turn_, extreme_), ++turns_back_;
+  }
   bool turned = turns;
   for (int k = parts - 1; k >= 0 && !turned; --k) {
     const double t = std::lerp(view.t_previous(), view.t(), static_cast<double>(k) / parts), now = beyond(t);

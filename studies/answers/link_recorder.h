@@ -1,7 +1,9 @@
 // link_recorder.h — an observer of the reduction link: its angle, when it last turned, whether it oscillates.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/run/run.h"
 #include "engine/run/sources.h"
@@ -16,20 +18,22 @@ class LinkRecorder final : public Observer {
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
   void remember(Tape& tape) override {
-    tape(began_, angle_, foremost_, hindmost_, driven_back_, turned_at_, sense_, backwards_since_, turned_forwards_,
-         late_from_, late_begin_, late_sense_, changes_, way_, low_, high_, fastest_, late_fastest_, reversal_,
+    tape(began_, angle_, foremost_, hindmost_, driven_back_, begin_, turned_at_, sense_, backwards_since_, fell_before_,
+         driven_, late_from_, late_begin_, late_sense_, changes_, way_, low_, high_, fastest_, late_fastest_, reversal_,
          first_change_, last_change_, extreme_, turned_back_, first_swing_, last_swing_, swing_before_last_,
-         half_swing_, swing_fastest_, swing_before_);
+         half_swing_, swing_fastest_, swing_before_, turning_, turns_back_, last_turn_, turn_before_);
   }
 
-  // Its greatest angle minus the angle at the end, turns counted [rad].
+  // Its greatest angle minus the angle at the end, turns counted [rad]: since it last came forwards by half of what it had
+  // fallen, more than half a turn; while it turns forwards, since the drive was last switched off.
   double fell_back() const { return foremost_ - angle_; }
-  // When it last came forwards by half of what it had fallen behind its greatest angle, more than half a turn [s]; 0: never.
-  double turned_forwards() const { return turned_forwards_; }
+  // The deepest of those falls since then [rad]; 0: there was none.
+  double fell_before() const { return fell_before_; }
   // Greatest speed of that rotation while anything drove [rad/s, ≤ 0].
   double driven_back() const { return driven_back_; }
   double backwards_since() const { return backwards_since_; }  // start of the last backward rotation [s]
-  double turned_at() const { return turned_at_; }              // when it last turned [s]
+  double turned_at() const { return turned_at_; }              // when it last turned, or the begin [s]
+  bool turned() const { return turned_at_ > begin_; }
   // It has not turned for the last fiftieth of the time up to t, nor for the time between its last two reversals: a swing
   // stands where it turns.
   bool rests(double t) const { return t - turned_at_ > std::max(0.02 * t, half_swing_); }
@@ -42,6 +46,10 @@ class LinkRecorder final : public Observer {
   }
   // It swings, and reached more than a twentieth of its greatest speed in that quarter.
   bool vibrates() const { return swings() && late_fastest_ > 0.05 * fastest_; }
+  // It has turned back twice at least, and is between the places of the last two times: these places [rad].
+  bool rocks() const { return turns_back_ >= 2 && last_swing().first <= angle_ && angle_ <= last_swing().second; }
+  std::pair<double, double> last_swing() const { return std::minmax(last_turn_, turn_before_); }
+  double fastest_late() const { return late_fastest_; }  // |speed| in the last quarter of the time [rad/s]
   // Greatest |speed| since its last reversal but one [rad/s]; 0: it does not swing.
   double speed_of_swing() const { return swings() ? std::max(swing_fastest_, swing_before_) : 0; }
   // Extreme angles in that quarter [rad], and frequency of its reversals there [Hz].
@@ -58,10 +66,12 @@ class LinkRecorder final : public Observer {
   Sources sources_;
   double until_;
   bool began_ = false;
+  bool driven_ = false;                             // at the end of the last step
   double angle_ = 0, foremost_ = 0, hindmost_ = 0;  // hindmost: since it was foremost
-  double driven_back_ = 0;
-  double turned_at_ = 0, backwards_since_ = 0, turned_forwards_ = 0;
-  int sense_ = 0;
+  double driven_back_ = 0, fell_before_ = 0;
+  double begin_ = 0, turned_at_ = 0, backwards_since_ = 0;
+  int sense_ = 0, turning_ = 0, turns_back_ = 0;  // turning: the sense in which it last turned
+  double last_turn_ = 0, turn_before_ = 0;        // angles at which it turned back
   double late_from_ = 0, late_begin_ = 0;
   int late_sense_ = 0, changes_ = 0;
   double way_ = 0, low_ = 0, high_ = 0, fastest_ = 0, late_fastest_ = 0;

@@ -11,6 +11,7 @@
 #include "drivetrain/induction/induction_law.h"
 #include "engine/model/model.h"
 #include "engine/numerics/index.h"
+#include "engine/return_map/periodicity.h"
 #include "engine/run/sources.h"
 #include "engine/scene/effects.h"
 #include "studies/answers/holders.h"
@@ -26,6 +27,7 @@ constexpr double nearly = 0.2;            // of the largest speed so far: below 
 constexpr double pushes = 0.1;            // of a motor's rated torque: what holds it is reported
 constexpr double short_while = 0.02;      // of the time
 constexpr double dust = 1e-9;             // of the usual speed: rounding
+constexpr double same_speed = 1e-3;       // of a speed: no other one
 constexpr double gains = 1.3;             // times its speed: one that few cycles tell of grows
 
 class Judge {
@@ -40,7 +42,7 @@ class Judge {
         budget_(budget),
         shaft_(at(m_.shaft_of_node[at(m_.reduction_node)])),
         now_(equations.snapshot(outcome.t, outcome.state)),
-        holders_(equations, outcome.t) {}
+        holders_(equations, outcome.t, shaft_) {}
 
   std::string link() const { return m_.network.nodes[at(m_.reduction_node)].component; }
   double angle() const { return now_.node_angle[m_.reduction_node]; }
@@ -53,6 +55,7 @@ class Judge {
   // Slower than 1 % of its usual speed, and by so little slower than before that it comes to a balance: no reversal.
   bool creeps() const {
     const double slow = turns_back_from * m_.speed_scale;
+    if (recorder_.rocks() && recorder_.fastest_late() > slow) return false;
     return std::abs(speed()) < slow && slows_down() && std::abs(now_.alpha[shaft_]) * short_while * outcome_.t < slow;
   }
   bool is_commanded() const { return !m_.commands.empty(); }
@@ -64,11 +67,13 @@ class Judge {
         torque += now_.sums.element_torque[e] * m_.node_ratio[at(m_.network.elements[e].node)];
     return torque;
   }
-  // A motor under more than this part of its rated torque whose shaft is slower than that part of its rated speed: stands.
-  const MotorTorque* standing_motor(double torque = drives, double slower = stands) const {
+  // A motor under more than this part of its rated torque whose shaft is slower than that part of its rated speed: stands;
+  // or that swings with the link.
+  const MotorTorque* standing_motor(double torque = drives, double slower = stands, bool link_swings = false) const {
     for (const MotorTorque& motor : m_.motors)
       if (!motor.prescribed && std::abs(torque_of(motor)) > torque * motor.rated_torque &&
-          std::abs(speed_of(motor)) < slower * std::abs(motor.rated_speed))
+          (std::abs(speed_of(motor)) < slower * std::abs(motor.rated_speed) ||
+           (link_swings && at(m_.shaft_of_node[at(motor.node)]) == shaft_)))
         return &motor;
     return nullptr;
   }
@@ -76,17 +81,30 @@ class Judge {
   double speed_of(const MotorTorque& motor) const {
     return m_.gain_of_node[at(motor.node)] * now_.now.speed[m_.shaft_of_node[at(motor.node)]];
   }
+  // Of the link; empty: it never turned.
   std::optional<double> rest() const {
+    if (!recorder_.turned()) return {};
+    const std::string shaft = m_.node_label(m_.shafts[shaft_].reference);
     const auto stop = std::find_if(outcome_.events.rbegin(), outcome_.events.rend(),
-                                   [](const Event& e) { return e.kind == EventKind::rest; });
-    return stop == outcome_.events.rend() ? std::nullopt : std::optional(stop->t);
+                                   [&](const Event& e) { return e.kind == EventKind::rest && e.component == shaft; });
+    return is_held() && stop != outcome_.events.rend() ? stop->t : recorder_.turned_at();
+  }
+  // Nothing drives any more.
+  bool is_off() const {
+    const Sources sources(m_);
+    return !sources.none() && !sources.drive(equations_.modes().active);
   }
 
-  // Torque that would move the link if nothing held it, reduced to it [N·m]: all except what opposes motion.
+  // Torque that would move the link if nothing held it, reduced to it [N·m]: all except what opposes motion, and what an
+  // open clutch parts from it.
   double acts() const {
+    const std::vector<char> joined = shafts_joined_to(m_, shaft_, [&](std::size_t j) {
+      return !(m_.elastic[j].slips && equations_.modes().slip[j] != 0 && now_.joint_torque[m_.elastic[j].joint] == 0);
+    });
     double torque = 0;
     for (std::size_t e = 0; e < m_.network.elements.size(); ++e)
-      if (!m_.network.elements[e].element->is.directional)
+      if (!m_.network.elements[e].element->is.directional &&
+          joined[at(m_.shaft_of_node[at(m_.network.elements[e].node)])] != 0)
         torque += now_.sums.element_torque[e] * m_.node_ratio[at(m_.network.elements[e].node)];
     return torque;
   }
@@ -99,60 +117,85 @@ class Judge {
     return angle >= 0 && equations_.at_standstill(at(m_.angles[at(angle)].shaft));
   }
 
-  // `contacts`: a clutch that slips meanwhile is the one that no longer holds. A motor behind springs may still tremble where
-  // the sequence waits for the link that is held.
-  std::optional<Claim> stalls(Claims& contacts) const {
+  // At rest although something drives, and not by an applied brake: it never turned, or stalls. `contacts`: a clutch that
+  // slips meanwhile is the one that no longer holds. A motor behind springs may still tremble where the sequence waits for
+  // the link that is held.
+  std::optional<Claim> halts(Claims& contacts) const {
     const MotorTorque* motor = standing_motor(is_held() && waits_in_vain() ? turns_back_from : stands);
-    const std::optional<double> since = is_held() ? rest() : std::optional(recorder_.turned_at());
-    if (!rests() || !since || (is_commanded() && !motor) || holders_.brake()) return {};
-    if (!is_held() && (!motor || *since == 0)) return {};
     const double torque = drive();
-    if (torque == 0) return {};
-    std::string why = fmt::format(
-        "{} can hold the {:.4g} N·m that drive there, and holds them to the end",
-        holders_.beside(m_.effects.joint_friction ? "the loads and the friction in joints" : "the load"), torque);
+    if (!rests() || (is_commanded() && !motor) || holders_.brake() || !(std::abs(torque) > drives * m_.torque_scale))
+      return {};
+    const Evidence evidence{.at = rest(), .value = std::abs(torque), .limit = 0, .unit = "N*m"};
+    if (!recorder_.turned()) {
+      const std::string holders = holders_.beside("its loads");
+      const bool one = holders.starts_with('"') && holders.find(',') == std::string::npos;
+      return claimed(Predicate::does_not_start,
+                     fmt::format("\"{}\" does not start: {} {} the {} N·m that drive it{}", link(), holders,
+                                 one ? "holds" : "hold", std::abs(torque), torque < 0 ? " backwards" : ""),
+                     link(), evidence);
+    }
+    if (!is_held() && !motor) return {};
+    const std::string drives_there =
+        fmt::format("the {:.4g} N·m that drive {}there", std::abs(torque), torque < 0 ? "backwards " : "");
+    std::string why =
+        is_held() || holders_.any()
+            ? fmt::format(
+                  "{} can hold {}, and holds them to the end",
+                  holders_.beside(m_.effects.joint_friction ? "the loads and the friction in joints" : "the load"),
+                  drives_there)
+            : "its loads balance " + drives_there;
     for (Claim& claim : contacts)
       if (claim.predicate == Predicate::slips_to_the_end && m_.network.kind_of(claim.of) != "brake")
         why = claim.text, claim.in_conclusion = false;
-    return claimed(Predicate::stalls,
-                   fmt::format("\"{}\" stalls at {} after {:.3g} s: {}", link(), text_of_place(angle()), *since, why),
-                   link(), {.at = since, .value = std::abs(torque), .limit = 0, .unit = "N*m"});
+    return claimed(
+        Predicate::stalls,
+        fmt::format("\"{}\" stalls at {} after {:.3g} s: {}", link(), text_of_place(angle()), *evidence.at, why),
+        link(), evidence);
   }
 
-  // By more than half a turn from its foremost position, finally, and without a drive backwards: it has not turned
-  // forwards again from there, since the drive is off if it is. Motion commanded by a sequence may be intended, as long
-  // as anything drives.
-  std::optional<Claim> backwards(const Result& r) const {
-    const Sources sources(m_);
-    if (r.begins_at > 0 || m_.scene.run.start.speed < 0 || sources.none()) return {};
-    if (!(speed() < -turns_back_from * m_.speed_scale) || recorder_.fell_back() < std::numbers::pi) return {};
-    if (is_commanded() ? sources.drive(equations_.modes().active)
-                       : recorder_.turned_forwards() > r.periods.run_down_begin.value_or(0))
-      return {};
+  // By more than half a turn from its foremost position, and by more than it fell and came forwards again before; or, with
+  // nothing on, faster than its usual speed. Without a drive backwards. Motion commanded by a sequence may be intended, as
+  // long as anything drives. `contacts`: a brake that is too weak is named.
+  std::optional<Claim> backwards(const Result& r, const Claims& contacts) const {
+    if (r.begins_at > 0 || m_.scene.run.start.speed < 0 || Sources(m_).none() || recorder_.swings()) return {};
+    if (!(speed() < -turns_back_from * m_.speed_scale) || (is_commanded() && !is_off())) return {};
+    const bool far = recorder_.fell_back() >= std::max(std::numbers::pi, (1 + changes_by) * recorder_.fell_before());
+    if (!far && !(is_off() && speed() < -m_.speed_scale)) return {};
     const double torque = drive(), least = drives * m_.torque_scale;
     const bool since_off = r.periods.run_down_begin && recorder_.backwards_since() > *r.periods.run_down_begin;
     if (torque < -least || (torque <= least && speed() >= recorder_.driven_back() && !since_off)) return {};
+    const auto weak = std::find_if(contacts.begin(), contacts.end(),
+                                   [](const Claim& c) { return c.predicate == Predicate::brake_does_not_stop; });
     return claimed(
         Predicate::turns_back,
         fmt::format("\"{}\" turns backwards, at {} at the end: {}", link(), m_.scene.speed_unit.text(speed()),
                     torque > least
                         ? fmt::format("its loads are stronger than the {} N·m that drive it forwards", torque)
-                        : "its loads drive it, and nothing holds them"),
+                        : fmt::format("its loads drive it, and {}",
+                                      weak == contacts.end() ? "nothing holds them"
+                                                             : fmt::format("\"{}\" does not hold them", weak->of))),
         link(), of_speed(r, speed(), 0));
   }
 
-  std::optional<Claim> runs_away(const Result& r) const {
+  // `fastest`: of the run; what nothing drives any more is then driven by its loads.
+  std::optional<Claim> runs_away(const Result& r, double fastest) const {
     const Periods& p = r.periods;
     const double limit = far_away * m_.speed_scale;
     const bool too_few = !p.without_limit && !p.remaining;  // cycles to judge by
-    if (is_commanded() || p.steady || p.run_down_begin || !(p.without_limit || too_few)) return {};
-    if (!(std::abs(speed()) > limit) || settles_at_a_higher_speed() || settles_later(too_few ? gains : 0)) return {};
+    if (!(std::abs(speed()) > limit)) return {};
+    const bool by_loads = is_off() && speed() >= (1 - same_speed) * fastest && !slows_down();
+    if (!by_loads) {
+      if (is_commanded() || p.steady || p.run_down_begin || !(p.without_limit || too_few)) return {};
+      if (settles_at_a_higher_speed() || settles_later(too_few ? gains : 0)) return {};
+    }
     return claimed(
         Predicate::runs_away,
-        fmt::format("\"{}\" runs away: {} at the end, {:.3g} times the speed of its data, and {}", link(),
+        fmt::format("\"{}\" runs away: {} at the end, {:.3g} times the speed of its data{}", link(),
                     m_.scene.speed_unit.text(speed()), std::abs(speed()) / m_.speed_scale,
-                    too_few ? "it goes on to gain, no less from each doubling of the time than from the one before"
-                            : p.verdict),
+                    by_loads ? ": its loads drive it, and nothing holds them"
+                    : too_few
+                        ? ", and it goes on to gain, no less from each doubling of the time than from the one before"
+                        : ", and " + p.verdict),
         link(), of_speed(r, std::abs(speed()), limit));
   }
   // Over a cycle of the rigid machine at constant speed: whether loads and drag balance the drive at some higher speed.
@@ -210,18 +253,6 @@ class Judge {
     return least > 0;
   }
 
-  // Held from the start although something drives, and not by an applied brake.
-  std::optional<Claim> never_starts(double fastest) const {
-    if (is_commanded() || !rests() || rest() || fastest > stands * m_.speed_scale || holders_.brake()) return {};
-    if (!(std::abs(drive()) > drives * m_.torque_scale)) return {};
-    const std::string holders = holders_.beside("its loads");
-    const bool one = holders.starts_with('"') && holders.find(',') == std::string::npos;
-    return claimed(Predicate::does_not_start,
-                   fmt::format("\"{}\" does not start: {} {} the {} N·m that drive it", link(), holders,
-                               one ? "holds" : "hold", drive()),
-                   link(), {.value = std::abs(drive()), .limit = 0, .unit = "N*m"});
-  }
-
   // By an applied brake, or by friction against the acting torque; a link that never moved is reported as such.
   std::optional<Claim> held(double fastest) const {
     const bool moves = std::abs(speed()) > dust * m_.speed_scale, ever = fastest > dust * m_.speed_scale;
@@ -246,11 +277,14 @@ class Judge {
   std::optional<Claim> motor_held() const {
     const bool trembles = recorder_.swings() && recorder_.speed_of_swing() < turns_back_from * m_.speed_scale;
     const bool nearly_rests = trembles || (!recorder_.swings() && creeps());
-    const MotorTorque* motor = standing_motor(pushes, nearly_rests ? turns_back_from : stands);
+    const MotorTorque* motor =
+        standing_motor(pushes, nearly_rests ? turns_back_from : stands, recorder_.vibrates() && holders_.any());
     if (!motor || rests()) return {};
     const std::string* brake = holders_.brake();
-    const bool own = brake && m_.shaft_of_node[at(motor->node)] == m_.shaft_of_node[at(m_.network.ports.at(*brake).in)];
-    std::string holders = own || nearly_rests ? holders_.components() : std::string();
+    const int shaft = m_.shaft_of_node[at(motor->node)];
+    const bool own = brake && shaft == m_.shaft_of_node[at(m_.network.ports.at(*brake).in)];
+    const bool swings = recorder_.vibrates() && at(shaft) == shaft_;
+    std::string holders = own || nearly_rests || swings ? holders_.components() : std::string();
     if (holders.empty() && nearly_rests) holders = "its loads";
     if (holders.empty()) return {};
     const std::string clause =
@@ -262,21 +296,26 @@ class Judge {
     return claim;
   }
 
-  // Less than one turn, and nearly at rest, although something drives; a brake put on meanwhile is meant to stop it.
+  // Less than one turn, and nearly at rest or to and fro, although something drives, but no law that repeats by the clock; a
+  // brake put on meanwhile is meant to stop it.
   std::optional<Claim> never_completes_a_cycle(const Result& r, double fastest) const {
     const auto is_whole = [&](const CycleRecord& c) { return std::abs(c.turned) > 0.5 * m_.cycle; };
     if (is_commanded() || std::any_of(r.cycles.begin(), r.cycles.end(), is_whole) || m_.cycle == 0 ||
         r.periods.run_down_begin || holders_.brake(true))
       return {};
-    if (std::abs(speed()) > nearly * fastest || !(std::abs(drive()) > drives * m_.torque_scale)) return {};
+    const bool rocks = recorder_.rocks() && recorder_.fastest_late() > nearly * fastest;
+    if (rocks ? clock_of(m_) > 0 : std::abs(speed()) > nearly * fastest) return {};
+    if (!(std::abs(drive()) > drives * m_.torque_scale)) return {};
+    constexpr double degree = std::numbers::pi / 180;
+    const auto [low, high] = recorder_.last_swing();
+    const std::string place =
+        rocks ? fmt::format("turns to and fro, between {:.1f}° and {:.1f}° at the end", low / degree, high / degree)
+              : fmt::format("is at {:.1f}° at the end, with {}", angle() / degree, m_.scene.speed_unit.text(speed()));
     const std::string* brake = holders_.brake();
-    return claimed(
-        Predicate::does_not_get_round,
-        fmt::format(
-            "\"{}\" does not complete a cycle: it is at {:.1f}° at the end, with {}, where the drive gives {} N·m{}",
-            link(), angle() * 180 / std::numbers::pi, m_.scene.speed_unit.text(speed()), drive(),
-            brake ? fmt::format(" and \"{}\" holds it", *brake) : ""),
-        link(), {.at = outcome_.t, .value = std::abs(drive()), .limit = 0, .unit = "N*m"});
+    return claimed(Predicate::does_not_get_round,
+                   fmt::format("\"{}\" does not complete a cycle: it {}, where the drive gives {} N·m{}", link(), place,
+                               drive(), brake ? fmt::format(" and \"{}\" holds it", *brake) : ""),
+                   link(), {.at = outcome_.t, .value = std::abs(drive()), .limit = 0, .unit = "N*m"});
   }
 
   // Oscillation to the end of a motion that should become steady and has no commands.
@@ -364,19 +403,19 @@ Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Resu
   if (outcome.state.empty()) return claims;
   const Judge judge(equations, outcome, link, watch, budget);
   Claims contacts = contact_claims(equations, outcome, result, slips);
-  std::optional<Claim> jams = joints_jam(equations.model(), outcome), halts = judge.stalls(contacts);
+  std::optional<Claim> jams = joints_jam(equations.model(), outcome), halts = judge.halts(contacts);
   if (jams && judge.rests()) halts = std::move(jams);
-  if (!outcome.complete) return halts ? Claims{std::move(*halts)} : claims;
+  if (!outcome.complete)
+    return halts && halts->predicate != Predicate::does_not_start ? Claims{std::move(*halts)} : claims;
   double fastest = 0;
   for (const Figure& f : result.figures)
     if (f.what == quantities::max_speed || f.what == quantities::min_speed)
       fastest = std::max(fastest, std::abs(f.value));
-  if (!halts) halts = judge.never_starts(fastest);
   if (halts) {
     add(claims, std::move(halts));
   } else {
     for (std::optional<Claim> claim :
-         std::array{judge.backwards(result), judge.runs_away(result), judge.hangs(result.periods),
+         std::array{judge.backwards(result, contacts), judge.runs_away(result, fastest), judge.hangs(result.periods),
                     judge.never_completes_a_cycle(result, fastest), judge.held(fastest), judge.starts(result, fastest)})
       add(claims, std::move(claim));
     if (std::none_of(claims.begin(), claims.end(), [](const Claim& c) { return c.is_bad(); })) {

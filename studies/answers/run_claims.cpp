@@ -39,13 +39,14 @@ class RunWords {
                      fmt::format("\"{}\" goes through its operating sequence{}{}", link(),
                                  end.empty() ? "" : " and ends " + end, held()),
                      link(), at_end);
-    if ((p_.remaining || p_.without_limit) && (p_.run_down_begin || swing().empty()))
+    if ((p_.remaining || p_.without_limit) && (p_.run_down_begin || (swing().empty() && held().empty())))
       return claimed(
           Predicate::not_steady_yet,
           fmt::format(
-              "\"{}\" has not reached a steady motion by {}: {}{}", link(),
+              "\"{}\" has not reached a steady motion by {}: {}{}{}", link(),
               p_.run_down_begin ? seconds(*p_.run_down_begin) + ", where it begins to run down" : seconds(r_.until),
-              p_.verdict, p_.standstill ? fmt::format("; it rests at {}{}", seconds(*p_.standstill), held()) : ""),
+              p_.verdict, p_.standstill ? fmt::format("; it rests at {}{}", seconds(*p_.standstill), held()) : "",
+              driven_by_loads()),
           link(), {.at = p_.run_down_begin.value_or(r_.until), .value = p_.remaining, .unit = "rad/s"});
     if (end.empty()) return {};
     return claimed(
@@ -107,6 +108,7 @@ class RunWords {
     if (!period.empty()) text += fmt::format(", where its motion repeats every {}", period);
     if (p_.run_down_begin) text += fmt::format(", runs down from {}", seconds(*p_.run_down_begin));
     if (p_.standstill) text += fmt::format(" and rests at {}{}", seconds(*p_.standstill), held());
+    text += driven_by_loads();
     Evidence evidence = mean ? of(*mean) : Evidence{.value = p_.steady_speed, .unit = "rad/s"};
     evidence.at = p_.run_up_end;
     return claimed(Predicate::runs_steadily, std::move(text), link(), std::move(evidence));
@@ -116,6 +118,17 @@ class RunWords {
     for (const Claim& c : r_.claims)
       if (c.predicate == Predicate::vibrates && !c.clause.empty()) return c.clause;
     return {};
+  }
+  // "; it turns backwards at the end, at −21 rad/s", after its drive was switched off; or faster than ever before.
+  std::string driven_by_loads() const {
+    constexpr double least = 0.01, same = 1e-3;  // of the usual speed, of a speed
+    const Figure *last = figure(quantities::final_speed), *fastest = figure(quantities::max_speed);
+    if (!p_.run_down_begin || p_.standstill || !last || !fastest) return {};
+    const double slow = least * r_.model->speed_scale;
+    if (last->value < -slow && fastest->value > slow)
+      return fmt::format("; it turns backwards at the end, at {}", speed(last->value));
+    if (last->value < slow || last->value < (1 - same) * fastest->value) return {};
+    return fmt::format("; its loads drive it on, to {} at the end", speed(last->value));
   }
   // ", held by "brake" against the 147 N·m that act on it": for a link at rest with a torque on it; a motor's is another
   // sentence.

@@ -23,17 +23,20 @@ constexpr std::array kinds = {
               "\"crank\" jams at 220.8° after 0.0116 s: no acceleration satisfies the friction in its joints while it "
               "moves (Painlevé's inconsistency), and it stops at once",
               "run, compare"},
-    ClaimKind{stalls, runs, fault, above,
-              "the link moved, is at rest at the end and held there, directly or through springs, and something drives "
-              "it; no engaged brake holds it",
-              "at: of its rest; value: the torque that drives, on the link [N·m]",
-              "\"compressor\" stalls at 308.9° after 0.637 s: the load can hold the 91.9 N·m that drive there, and "
-              "holds them to the end",
-              "run, compare"},
-    ClaimKind{does_not_start, runs, fault, above,
-              "the link never moved although something drives it; no brake that is on holds it",
-              "value: the torque that drives, on the link [N·m]",
-              "\"compressor\" does not start: its loads hold the 91.94 N·m that drive it", "run, compare"},
+    ClaimKind{
+        stalls, runs, fault, above,
+        "the link turned, is at rest at the end and held there, directly or through springs, or a motor that stands "
+        "under torque is balanced by its loads; something drives it, and no engaged brake holds it",
+        "at: of its rest; value: the torque that drives, on the link [N·m]",
+        "\"compressor\" stalls at 308.9° after 0.637 s: the load can hold the 91.9 N·m that drive there, and "
+        "holds them to the end",
+        "run, compare"},
+    ClaimKind{
+        does_not_start, runs, fault, above,
+        "the link never turned at 0.1 % of its usual speed although something drives it; no brake that is on holds "
+        "it. With a sequence: if a motor stands under torque",
+        "value: the torque that drives, on the link [N·m]",
+        "\"compressor\" does not start: its loads hold the 91.94 N·m that drive it", "run, compare"},
     ClaimKind{brake_does_not_stop, runs, fault, above,
               "a brake that was put on slips at the end, and at that deceleration would not stop its shaft within the "
               "time of the run",
@@ -42,8 +45,11 @@ constexpr std::array kinds = {
               "run, compare"},
     ClaimKind{
         turns_back, runs, fault, below,
-        "the link ends more than half a turn behind its foremost position and has not come forwards again by half of "
-        "that; a torque drives it forwards, or nothing drives it (with a sequence: only if nothing drives it)",
+        "the link ends more than half a turn behind its foremost position, and has not come forwards again by half of "
+        "that, or has fallen farther since; or, with nothing on, it turns backwards faster than its usual speed. It "
+        "does "
+        "not go to and fro. A torque drives it forwards, or nothing drives it (with a sequence: only if nothing drives "
+        "it)",
         "value: speed at the end [rad/s]; limit: 0",
         "\"motor\" turns backwards, at -12.67 rad/s at the end: its loads are stronger than the 79 N·m that "
         "drive it forwards",
@@ -59,17 +65,19 @@ constexpr std::array kinds = {
               "higher speed (up to a hundred times) do loads and drag balance the drive. A trial of up to eight times "
               "the time confirms it: the gain does not decrease from one doubling of the time to the next, or the "
               "trial ends earlier, by the budget, by ten times the run's evaluations in one doubling, or by a fault. "
-              "With fewer than three cycles only a complete trial counts, which must reach 1.3 times the speed",
+              "With fewer than three cycles only a complete trial counts, which must reach 1.3 times the speed. With "
+              "nothing on any more the end must be the fastest of the run, and not slow down",
               "value: speed at the end; limit: 1.5 times the usual speed [rad/s]",
               "\"motor\" runs away: 100 rad/s at the end, 10 times the speed of its data, and the mean speed "
               "changes by +6.5 % per sixteenth of the time, and this change does not decrease",
               "run, compare"},
-    ClaimKind{does_not_get_round, runs, fault, above,
-              "the link completes no cycle, its speed at the end is at most a fifth of the largest one, and something "
-              "drives it; no brake that was put on meanwhile holds it",
-              "value: the torque that drives, on the link [N·m]",
-              "\"press\" does not complete a cycle: it is at 161.2° at the end, with 0.1 rpm, where 310 N·m drive it",
-              "run, compare"},
+    ClaimKind{
+        does_not_get_round, runs, fault, above,
+        "the link completes no cycle, its speed at the end is at most a fifth of the largest one, or it goes to and "
+        "fro and no law over time repeats, and something drives it; no brake that was put on meanwhile holds it",
+        "value: the torque that drives, on the link [N·m]",
+        "\"press\" does not complete a cycle: it is at 161.2° at the end, with 0.1 rpm, where 310 N·m drive it",
+        "run, compare"},
     ClaimKind{slips_to_the_end, runs, warning, above,
               "a closed clutch, limiter or belt slips at the end under torque, or a brake that is on from the start",
               "value: the speed of slip [rad/s]",
@@ -144,7 +152,7 @@ constexpr std::array kinds = {
               "at the end an engaged brake, or a part that is not driven, holds the link, which has never moved or was "
               "brought to rest by it. While the link moves: a motor that gives at least a tenth of its rated torque is "
               "held by a brake on its own shaft, or, if the link vibrates or creeps below 1 % of its usual speed, by "
-              "parts at rest or by loads that balance it",
+              "parts at rest or by loads that balance it, or, if it vibrates with the link, by parts at rest",
               "at: of its rest; value: the torque that acts [N·m]", "\"drum\" is held by \"brake\"", "run, compare"},
     ClaimKind{sticks_and_slips, runs, note, above,
               "while the link turns, another shaft comes to rest and moves on in the same sense, three times at least",

@@ -111,6 +111,61 @@ TEST(Falling, IsSaidOfAWeightThatIsPushedUpForAMoment) {
   EXPECT_NEAR(*falls->evidence.value, 1 - 10 * 2.45, 1e-6);
 }
 
+// It falls by 6.4 rad until the motor stops it, is lifted again by half of that and switched off, while it rises; the edges of
+// "tick" end steps while it does. What it came forwards before and after the switch makes no swing of it.
+TEST(Falling, IsSaidOfAWeightThatStillRisesWhenItsDriveIsSwitchedOff) {
+  const Result r = test::run(R"(
+    line = ["motor", "drum"]
+    motor = { kind = "torque source", torque = "40 N*m", inertia = "1 kg*m2", start = "0.8 s", stop = "2.4 s" }
+    drum = { kind = "load", torque = "20 N*m", acts = "always", inertia = "1 kg*m2" }
+    tick = { kind = "load", on = "drum", torque = "1e-6 N*m", start = "2.5 s", stop = "2.6 s" }
+    run = { start = "rest", until = "6 s" }
+  )");
+  const Claim* falls = find(r.claims, Predicate::turns_back, "motor");
+  ASSERT_TRUE(falls) << said(r);
+  EXPECT_NEAR(*falls->evidence.value, 8 - 10 * 3.6, 1e-5);
+}
+
+// It rises until 2 s: at 2.3 s it is 0.45 rad below and at −3 rad/s, and the conclusion says so.
+TEST(Falling, IsToldByTheSpeedAtTheEndBeforeItIsFar) {
+  Result r = test::run(hoist("").replace(hoist("").find("5 s"), 3, "2.3 s"));
+  EXPECT_FALSE(find(r.claims, Predicate::turns_back)) << said(r);
+  EXPECT_TRUE(has(said(r), "; it turns backwards at the end, at -28.65 rpm")) << said(r);
+}
+
+// 60 N·m on 2 kg·m² turn it at −30 rad/s² from 5 rad/s to −7 rad/s, faster than the motor's 6 rad/s, within 0.4 rad.
+TEST(Falling, IsSaidOfWhatIsFasterBackwardsThanItsUsualSpeed) {
+  const Result r = test::run(R"(
+    line = ["motor", "drum"]
+    motor = { kind = "motor", torque = { over = "speed", unit = ["rad/s", "N*m"], points = [[0, 360], [5, 60], [6, 0]] }, inertia = "1 kg*m2", stop = "2 s" }
+    drum = { kind = "load", torque = "60 N*m", acts = "always", inertia = "1 kg*m2" }
+    run = { start = "rest", until = "2.4 s" }
+  )");
+  const Claim* falls = find(r.claims, Predicate::turns_back, "motor");
+  ASSERT_TRUE(falls) << said(r);
+  EXPECT_NEAR(*falls->evidence.value, 5 - 30 * 0.4, 1e-4);
+}
+
+// Lowered by 6 N·m against a motor that brakes by 5 N·m·s/rad beyond 10 rad/s, and let go at 4 s: 3 rad/s² from there on.
+TEST(RunningAway, IsSaidOfAWeightThatIsLoweredAndLetGo) {
+  const auto lowered = [](const char* until) {
+    return test::run(fmt::format(R"(
+      line = ["motor", "drum"]
+      motor = {{ kind = "dc shunt motor", stall_torque = "50 N*m", no_load_speed = "10 rad/s", inertia = "1 kg*m2", stop = "4 s" }}
+      drum = {{ kind = "load", torque = "-6 N*m", acts = "always", inertia = "1 kg*m2" }}
+      run = {{ until = "{}" }}
+    )",
+                                 until));
+  };
+  const Result off = lowered("5 s"), far = lowered("10 s");
+  EXPECT_FALSE(find(off.claims, Predicate::runs_away)) << said(off);
+  EXPECT_TRUE(has(said(off), "; its loads drive it on, to ")) << said(off);
+  const Claim* away = find(far.claims, Predicate::runs_away, "motor");
+  ASSERT_TRUE(away) << said(far);
+  EXPECT_NEAR(*away->evidence.value, 10 * 56 / 50.0 * (1 - std::exp(-2.5 * 4)) + 3 * 6, 1e-5);
+  EXPECT_TRUE(has(away->text, "its loads drive it, and nothing holds them")) << away->text;
+}
+
 // The brake's 100 N·m and the weight's 20 N·m stop 2 kg·m² from 10 rad/s within 1/6 s.
 TEST(Holding, IsSaidOfWhatCameToRest) {
   const Result r =
@@ -251,6 +306,79 @@ TEST(Stalls, AreNotSaidWhileItTrembles) {
   EXPECT_TRUE(find(stands.claims, Predicate::stalls)) << said(stands);
 }
 
+// 20 N·m on a spring of 1 MN·m/rad: at most 20/√(0.2·10⁶) = 0.045 rad/s, below 1e-3 of the usual speed, until the bearing on
+// its own shaft holds it. By command at 1 s or from the start, it never turned.
+TEST(Stalls, AreNotSaidOfWhatNeverTurned) {
+  for (const char* sequence : {"",
+                               "sequence = { steps = [{ at = \"0 s\", set = \"motor\", to = 0 }, { at = \"1 s\", set = "
+                               "\"motor\", to = 1 }] }"}) {
+    const Result r = test::run(std::string(R"(
+      line = ["motor", "shaft", "mill"]
+      motor = { kind = "dc shunt motor", stall_torque = "20 N*m", no_load_speed = "100 rad/s", inertia = "0.2 kg*m2" }
+      shaft = { kind = "shaft", stiffness = "1 MN*m/rad", damping_ratio = 0.05 }
+      mill = { kind = "load", torque = "80 N*m", inertia = "1 kg*m2" }
+      drag = { kind = "bearing", on = "motor", torque = "3 N*m" }
+      effects = { elasticity = true }
+      run = { start = "rest", until = "3 s" }
+    )") + sequence);
+    EXPECT_FALSE(find(r.claims, Predicate::stalls)) << said(r);
+    EXPECT_TRUE(said(r).starts_with("\"motor\" does not start: its loads hold the 20 N·m that drive it")) << said(r);
+  }
+}
+
+// J φ″ + 2 N·m·s/rad φ′ + 20 N·m/rad (φ − 1) = 20 N·m: nothing holds it at 2 rad.
+TEST(Stalls, AreSaidOfABalance) {
+  const Result r = test::run(R"(
+    line = ["motor", "arm"]
+    motor = { kind = "dc shunt motor", stall_torque = "20 N*m", no_load_speed = "10 rad/s", inertia = "0.01 kg*m2" }
+    arm = { kind = "load", table = { over = "angle", formula = "20 [N*m/rad]*phi - 20 [N*m]" } }
+    run = { start = { angle = "1 rad" }, until = "4 s" }
+  )");
+  ASSERT_TRUE(find(r.claims, Predicate::stalls, "motor")) << said(r);
+  EXPECT_TRUE(has(said(r), "\"motor\" stalls at 114.6° after ")) << said(r);
+  EXPECT_TRUE(has(said(r), ": its loads balance the 20 N·m that drive there")) << said(r);
+}
+
+// What stands beyond an open clutch holds nothing.
+TEST(Stalls, AreNotLaidToWhatAnOpenClutchParts) {
+  const Result r = test::run(R"(
+    line = ["motor", "clutch", "table"]
+    motor = { kind = "dc shunt motor", stall_torque = "50 N*m", no_load_speed = "100 rad/s", inertia = "0.2 kg*m2" }
+    drag = { kind = "bearing", on = "motor", torque = "60 N*m" }
+    clutch = { kind = "clutch", torque = "100 N*m" }
+    table = { kind = "load", torque = "20 N*m", inertia = "1 kg*m2" }
+    slide = { kind = "bearing", on = "table", torque = "3 N*m" }
+    sequence = { steps = [{ at = "0 s", set = "clutch", to = 0 }] }
+    run = { start = { motor = { speed = "20 rad/s" } }, until = "3 s" }
+  )");
+  ASSERT_TRUE(find(r.claims, Predicate::stalls, "motor")) << said(r);
+  EXPECT_TRUE(has(said(r), ": \"drag\" can hold the 50 N·m that drive there")) << said(r);
+}
+
+// A motor of 30 N·m before a crank that weighs 78 N·m rocks it to and fro: so it is said whenever the run ends. What a law over
+// time shakes is not to get round.
+TEST(Cycles, ThatACrankRocksInsteadOfAreMissedAtEveryPhase) {
+  const auto crank = [](const char* motor, double until) {
+    return test::run(fmt::format(R"(
+      line = ["motor", "crank"]
+      motor = {{ {}, inertia = "0.2 kg*m2" }}
+      crank = {{ kind = "slider-crank", radius = "0.1 m", rod = "0.4 m", crank_inertia = "1.5 kg*m2", crank_mass = "80 kg", crank_com = "0.1 m", slider_mass = "20 kg", gravity = "9.81 m/s2" }}
+      run = {{ start = {{ angle = "-90 deg" }}, until = "{} s" }}
+    )",
+                                 motor, until));
+  };
+  for (const double until : {2.4, 2.55, 2.7, 2.85, 3.0}) {
+    const Result r = crank(R"(kind = "dc shunt motor", stall_torque = "30 N*m", no_load_speed = "50 rad/s")", until);
+    ASSERT_TRUE(find(r.claims, Predicate::does_not_get_round, "crank")) << until << ' ' << said(r);
+    EXPECT_TRUE(has(said(r), "does not complete a cycle: it turns to and fro, between -")) << said(r);
+  }
+  for (const double until : {6.0, 6.1, 6.2, 6.3}) {
+    const Result r =
+        crank(R"(kind = "torque source", torque = "0 N*m", amplitude = "20 N*m", frequency = "1.7 Hz")", until);
+    EXPECT_FALSE(find(r.claims, Predicate::does_not_get_round)) << until << ' ' << said(r);
+  }
+}
+
 // A press that jams in its work while the sequence waits for an angle beyond it does not go through its sequence, also
 // while the shafts behind it still vibrate.
 TEST(Stalls, AreSaidOfAPressThatJamsBeforeTheAngleThatItsSequenceWaitsFor) {
@@ -317,6 +445,74 @@ TEST(Holding, IsSaidOfAMotorThatItsLoadBalances) {
     EXPECT_TRUE(has(said(*r), "held by its loads against the ")) << said(*r);
   }
   EXPECT_FALSE(find(balanced(0.01, 20, 0.3).claims, Predicate::held_by));
+}
+
+// 2 N·m on a spring of 4 N·m/rad before a load that holds 10: ± 0.5 rad at 76 1/s at first, and the motor turns no mill.
+TEST(Holding, IsSaidOfAMotorThatVibratesBeforeALoadThatStands) {
+  const auto vibrating = [](double until) {
+    return test::run(fmt::format(R"(
+      line = ["motor", "coupling", "mill"]
+      motor = {{ kind = "dc shunt motor", stall_torque = "2 N*m", no_load_speed = "1000 rad/s", rated_torque = "2 N*m", inertia = "7 kg*cm2" }}
+      coupling = {{ kind = "coupling", stiffness = "4 N*m/rad", damping_ratio = 0.01 }}
+      mill = {{ kind = "load", torque = "10 N*m", inertia = "200 kg*cm2" }}
+      effects = {{ elasticity = true }}
+      run = {{ until = "{} s" }}
+    )",
+                                 until));
+  };
+  for (const double until : {0.3, 0.36, 0.39}) {
+    const Result r = vibrating(until);
+    EXPECT_TRUE(find(r.claims, Predicate::vibrates, "motor")) << said(r);
+    EXPECT_TRUE(has(said(r), "\"motor\" is held by \"mill\" against the ")) << said(r);
+  }
+  // Slow for a moment, with fewer than two reversals in the last quarter.
+  const Result passes = vibrating(0.33);
+  EXPECT_FALSE(has(said(passes), "rest")) << said(passes);
+}
+
+// Both brakes stop their sides of the open clutch: the weight's 60 N·m act on the drum alone.
+TEST(Holding, OfALinkCountsNoTorqueBeyondAnOpenClutch) {
+  const Result r = test::run(R"(
+    line = ["motor", "clutch", "drum"]
+    motor = { kind = "dc shunt motor", stall_torque = "200 N*m", no_load_speed = "50 rad/s", inertia = "1 kg*m2" }
+    motor_brake = { kind = "brake", on = "motor", torque = "30 N*m", start = "2 s" }
+    clutch = { kind = "clutch", torque = "150 N*m" }
+    drum = { kind = "load", torque = "60 N*m", acts = "always", inertia = "2 kg*m2" }
+    drum_brake = { kind = "brake", on = "drum", torque = "100 N*m", start = "2 s" }
+    sequence = { steps = [{ at = "2 s", set = ["motor", "clutch"], to = 0 }] }
+    run = { until = "6 s" }
+  )");
+  EXPECT_TRUE(find(r.claims, Predicate::held_by, "motor")) << said(r);
+  EXPECT_TRUE(said(r).starts_with("\"motor\" goes through its operating sequence and ends at rest. ")) << said(r);
+}
+
+// The brake of 60 N·m stops a motor that stays on; what still trembles behind the coupling runs up to nothing.
+TEST(Holding, IsSaidOfAMotorThatStaysOnAgainstABrake) {
+  const Result r = test::run(R"(
+    line = ["motor", "coupling", "drum"]
+    motor = { kind = "dc shunt motor", stall_torque = "20 N*m", no_load_speed = "100 rad/s", inertia = "0.05 kg*m2" }
+    coupling = { kind = "coupling", stiffness = "500 N*m/rad", damping_ratio = 0.02 }
+    drum = { kind = "load", damping = "0.05 N*m*s/rad", inertia = "0.3 kg*m2" }
+    brake = { kind = "brake", on = "drum", torque = "60 N*m", start = "3 s" }
+    effects = { elasticity = true }
+    run = { until = "6 s" }
+  )");
+  EXPECT_TRUE(has(said(r), "rest")) << said(r);
+  EXPECT_TRUE(has(said(r), ", held by \"brake\" against the 20 N·m that act on it")) << said(r);
+}
+
+// The motor's bearing stops it within 4 s; the mill goes on, from 29 rad/s by 0.2 rad/s² less.
+TEST(Freewheels, SayThatTheirDrivenSideRunsOn) {
+  const Result r = test::run(R"(
+    line = ["motor", "freewheel", "mill"]
+    motor = { kind = "dc shunt motor", stall_torque = "80 N*m", no_load_speed = "30 rad/s", inertia = "0.5 kg*m2", stop = "12 s" }
+    freewheel = { kind = "one-way clutch" }
+    mill = { kind = "load", torque = "1 N*m", inertia = "5 kg*m2" }
+    drag = { kind = "bearing", on = "motor", torque = "4 N*m" }
+    run = { until = "17 s" }
+  )");
+  EXPECT_TRUE(has(said(r), "\"freewheel\" lets its driven side run ahead, first at ")) << said(r);
+  EXPECT_TRUE(has(said(r), "s, by 27.")) << said(r);
 }
 
 // Two masses of 1 kg·m² on 100 N·m/rad: f = √200/2π, each to and fro by half the spring's 0.05 rad.
@@ -410,6 +606,19 @@ TEST(Clutches, ThatEngageAreSaidThoughNoAngleIsKnown) {
   const double begins = open.find("final_speed.flywheel")->value - open.find("final_speed.press")->value;
   EXPECT_GT(begins, 100);
   EXPECT_NEAR(*engages->evidence.value, begins, 1e-3 * begins);
+}
+
+// The clutch's 50 N·m are less than the weight's 60: the motor runs at 50 rad/s·(1 − 50/200), the weight falls by 5 rad/s².
+TEST(Clutches, ThatSlipUnderAWeightSayThatItFalls) {
+  const Result r = test::run(R"(
+    line = ["motor", "clutch", "drum"]
+    motor = { kind = "dc shunt motor", stall_torque = "200 N*m", no_load_speed = "50 rad/s", inertia = "1 kg*m2" }
+    clutch = { kind = "clutch", torque = "50 N*m" }
+    drum = { kind = "load", torque = "60 N*m", acts = "always", inertia = "2 kg*m2" }
+    run = { until = "5 s", start = "rest" }
+  )");
+  EXPECT_TRUE(has(said(r), "under the 50 N·m that it can transmit, and what it drives turns backwards, at -25 rad/s"))
+      << said(r);
 }
 
 // A limiter that lets go has a rating that does not hold.
