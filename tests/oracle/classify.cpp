@@ -75,8 +75,8 @@ class MotionJudge {
     return j;
   }
   std::string end() const {
-    const double stands = until_ - rests_since();
-    if (!turns_at(p_.back()) && (p_.back().held || stands > std::max(at_end * until_, half_swing()))) return "rests";
+    const double stands = until_ - rests_since(), swing = has_decayed() ? 0 : half_swing();
+    if (!turns_at(p_.back()) && (p_.back().held || stands > std::max(at_end * until_, swing))) return "rests";
     if (vibrates()) return "vibrates";
     return mean_speed(until_ - at_end * until_, until_) < 0 ? "backwards" : "forwards";
   }
@@ -128,6 +128,17 @@ class MotionJudge {
     }
     const double last = reversal[0] - reversal[1], before = reversal[1] - reversal[2];
     return count == reversal.size() && last < 2 * before && before < 2 * last ? last : 0;
+  }
+  // Since it last turned it reversed, and passed its greatest speed in that sense: what is left of a vibration turns no more.
+  bool has_decayed() const {
+    double most = 0;
+    bool reversed = false;
+    for (std::size_t k = p_.size(); k-- > 1 && !turns_at(p_[k]);) {
+      reversed = p_[k].speed * p_[k - 1].speed < 0;
+      most = std::max(most, std::abs(p_[k].speed));
+      if (reversed) break;
+    }
+    return reversed && most > 1.1 * std::abs(p_.back().speed);
   }
   // |speed| at the end; of one that vibrates the greatest one of its last half swing, or of the last 2 % of the time.
   double fastest_late() const {
@@ -203,7 +214,7 @@ class MotionJudge {
       if (driven_back || m.speed >= 0) left = driven_back ? std::min(m.speed, 0.0) : 0;
       foremost = driven_back || p_.back().speed > left ? m.angle : std::max(foremost, m.angle);
     }
-    return foremost - p_.back().angle > std::numbers::pi;
+    return foremost - p_.back().angle > std::numbers::pi || (!p_.back().driven && p_.back().speed < -usual_);
   }
   bool turns_back() const {
     if (!drives_at_end() || std::abs(p_.back().speed) < 0.01 * usual_ || p_.back().speed * p_.back().drive > 0)

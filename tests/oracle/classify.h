@@ -7,7 +7,8 @@
 //   moves       the link turns at any point
 //   end         "rests":      it does not turn at the end, and is held there or has not turned for the last 2 % of the time,
 //                             nor for as long as the last two reversals of a vibration lie apart, which stands at its
-//                             turns (the time between the two before is that within a factor of two)
+//                             turns (the time between the two before is that within a factor of two); unless it has
+//                             reversed since it last turned, and passed its greatest speed in that sense
 //               "vibrates":   in the last quarter of the time it turns in both senses, twice at least, and the angle that it
 //                             gained is less than a quarter of the way it went there, or in the last whole swing: the
 //                             quarter may end at the other end of a swing than it begins
@@ -25,7 +26,7 @@
 //   stalls      turned at 1 % of the usual speed at least, rests at the end, and is pushed there
 //   falls       at the end it turns backwards at 1 % of the usual speed at least, more than half a turn behind its foremost
 //               point since a source last drove it backwards, or left it turning so, faster than at the
-//               end, and began at rest or forwards
+//               end, or, with no source on, faster than its usual speed; and began at rest or forwards
 //   turns_back  at the end it turns against what drives it, at 1 % of the usual speed at least, and lies more than half a turn
 //               behind the foremost point in the sense of the drive, or of the start
 //   no_round    a machine with a cycle has not turned by one cycle, moved, and rests or vibrates at the end, driven

@@ -11,6 +11,7 @@ from told import Told
 NEAR = 0.01     # of a speed or torque: further apart is another one
 TURNS = 1e-3    # of the usual speed: a shaft turns (classify.h)
 CLEARLY = 0.05  # of the time: too late to be rounding
+MOST_CYCLES = 6  # of a period (classify.h): as few laps may lead to it
 DRIFTS = 0.35   # of the way: gained by what goes to and fro and does not vibrate
 
 
@@ -76,7 +77,7 @@ class Judge:
         claimed = claimed if claimed is not None else self.run.value(f"mid_speed.{self.truth['link']}")
         if off is None and m["end"] in ("rests", "vibrates"):
             self.contradiction("runs steadily, but " + m["end"], f"speed at the end {m['speed_at_end']:.4g} rad/s")
-        elif part["steady"] == "no" and not (part is m and self.comes_later()):
+        elif part["steady"] == "no" and not (part is m and self.comes_later()) and not self.is_flat(part):
             self.contradiction("runs steadily, but does not", f"drift {part['drift']:.3g} between eighths of the time, {part['laps']} laps")
         stands, least, greatest = (part.get(k) or 0 for k in ("stands_within", "least_speed", "greatest_speed"))
         if stands > 0.01 or least <= 0 < greatest:
@@ -96,8 +97,12 @@ class Judge:
     # Few laps of the time itself tell nothing: the last one is already that of the motion to which the machine comes.
     def comes_later(self):
         m, l = self.motion, self.later
-        return bool(m["cycle"] and m["laps"] <= 3 and l and l["complete"] and l["steady"] == "yes" and
+        return bool(m["cycle"] and m["laps"] <= MOST_CYCLES and l and l["complete"] and l["steady"] == "yes" and
                     not any(differs(m[k], l[k], NEAR / 2) for k in ("mean_speed", "least_speed", "greatest_speed")))
+
+    # The last tenth of a motion without a cycle is steady by itself, however late the run-up ended.
+    def is_flat(self, part):
+        return not self.motion["cycle"] and part["greatest_speed"] - part["least_speed"] < TURNS * abs(part["mean_speed"])
 
     def boundaries(self):
         """One definition of run-up, steady motion and run-down, everywhere."""
@@ -204,7 +209,7 @@ class Judge:
         if r.says("turns back") and not (m["speed_at_end"] < 0 and (m["turns_back"] or m["falls"])):
             self.contradiction("turns back, but does not", f"{m['speed_at_end']:.4g} rad/s at the end")
         negative = any(w in r.conclusion for w in ("backwards", "turns back", "at -", "away: -", "falls"))
-        if m["falls"] and m["end"] == "vibrates" and r.says("vibrates"):
+        if m["falls"] and m["end"] == "vibrates" and (r.says("vibrates") or "to and fro" in r.conclusion):
             return
         if m["falls"] and not negative:
             self.omission("falls or turns back", f"{m['speed_at_end']:.4g} rad/s at the end, fastest {m['fastest']:.4g}; said: {r.sentences[0]}")
