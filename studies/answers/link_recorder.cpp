@@ -48,6 +48,7 @@ void LinkRecorder::step(StepView& view) {
     sense_ = sense;
   }
   const bool drives = sources_.drive(equations.modes().active);
+  if (drives && !driven_) driven_since_ = view.t_previous();
   if (std::exchange(driven_, drives) && !drives) {
     fell_before_ = 0;
     if (speed > 0) foremost_ = hindmost_ = angle_;

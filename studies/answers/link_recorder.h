@@ -19,9 +19,10 @@ class LinkRecorder final : public Observer {
   void step(StepView& view) override;
   void remember(Tape& tape) override {
     tape(began_, angle_, foremost_, hindmost_, driven_back_, begin_, turned_at_, sense_, backwards_since_, fell_before_,
-         driven_, late_from_, late_begin_, late_sense_, changes_, way_, low_, high_, fastest_, late_fastest_, reversal_,
-         first_change_, last_change_, extreme_, turned_back_, first_swing_, last_swing_, swing_before_last_,
-         half_swing_, swing_fastest_, swing_before_, turning_, turns_back_, last_turn_, turn_before_);
+         driven_, driven_since_, late_from_, late_begin_, late_sense_, changes_, way_, low_, high_, fastest_,
+         late_fastest_, reversal_, first_change_, last_change_, extreme_, turned_back_, first_swing_, last_swing_,
+         swing_before_last_, half_swing_, swing_fastest_, swing_before_, turning_, turns_back_, last_turn_,
+         turn_before_);
   }
 
   // Its greatest angle minus the angle at the end, turns counted [rad]: since it last came forwards by half of what it had
@@ -31,6 +32,7 @@ class LinkRecorder final : public Observer {
   double fell_before() const { return fell_before_; }
   // Greatest speed of that rotation while anything drove [rad/s, ≤ 0].
   double driven_back() const { return driven_back_; }
+  double driven_since() const { return driven_since_; }        // when the drive was last switched on [s]
   double backwards_since() const { return backwards_since_; }  // start of the last backward rotation [s]
   double turned_at() const { return turned_at_; }              // when it last turned, or the begin [s]
   bool turned() const { return turned_at_ > begin_; }
@@ -49,6 +51,7 @@ class LinkRecorder final : public Observer {
   // It has turned back twice at least, and is between the places of the last two times: these places [rad].
   bool rocks() const { return turns_back_ >= 2 && last_swing().first <= angle_ && angle_ <= last_swing().second; }
   std::pair<double, double> last_swing() const { return std::minmax(last_turn_, turn_before_); }
+  double fastest() const { return fastest_; }            // |speed| at the end of any step [rad/s]
   double fastest_late() const { return late_fastest_; }  // |speed| in the last quarter of the time [rad/s]
   // Greatest |speed| since its last reversal but one [rad/s]; 0: it does not swing.
   double speed_of_swing() const { return swings() ? std::max(swing_fastest_, swing_before_) : 0; }
@@ -69,7 +72,7 @@ class LinkRecorder final : public Observer {
   bool driven_ = false;                             // at the end of the last step
   double angle_ = 0, foremost_ = 0, hindmost_ = 0;  // hindmost: since it was foremost
   double driven_back_ = 0, fell_before_ = 0;
-  double begin_ = 0, turned_at_ = 0, backwards_since_ = 0;
+  double begin_ = 0, turned_at_ = 0, backwards_since_ = 0, driven_since_ = 0;
   int sense_ = 0, turning_ = 0, turns_back_ = 0;  // turning: the sense in which it last turned
   double last_turn_ = 0, turn_before_ = 0;        // angles at which it turned back
   double late_from_ = 0, late_begin_ = 0;

@@ -125,6 +125,10 @@ class Judge {
     const double torque = drive();
     if (!rests() || (is_commanded() && !motor) || holders_.brake() || !(std::abs(torque) > drives * m_.torque_scale))
       return {};
+    // Just begun: what is switched on at the end, or has no more than begun to turn.
+    const bool is_free = !is_held() && !holders_.any();
+    if (outcome_.t - recorder_.driven_since() < short_while * outcome_.t) return {};
+    if (!recorder_.turned() && is_free && std::abs(speed()) > 0.5 * recorder_.fastest()) return {};
     const Evidence evidence{.at = rest(), .value = std::abs(torque), .limit = 0, .unit = "N*m"};
     if (!recorder_.turned()) {
       const std::string holders = holders_.beside("its loads");
@@ -138,12 +142,11 @@ class Judge {
     const std::string drives_there =
         fmt::format("the {:.4g} N·m that drive {}there", std::abs(torque), torque < 0 ? "backwards " : "");
     std::string why =
-        is_held() || holders_.any()
-            ? fmt::format(
-                  "{} can hold {}, and holds them to the end",
-                  holders_.beside(m_.effects.joint_friction ? "the loads and the friction in joints" : "the load"),
-                  drives_there)
-            : "its loads balance " + drives_there;
+        !is_free ? fmt::format(
+                       "{} can hold {}, and holds them to the end",
+                       holders_.beside(m_.effects.joint_friction ? "the loads and the friction in joints" : "the load"),
+                       drives_there)
+                 : "its loads balance " + drives_there;
     for (Claim& claim : contacts)
       if (claim.predicate == Predicate::slips_to_the_end && m_.network.kind_of(claim.of) != "brake")
         why = claim.text, claim.in_conclusion = false;
@@ -164,6 +167,9 @@ class Judge {
     const double torque = drive(), least = drives * m_.torque_scale;
     const bool since_off = r.periods.run_down_begin && recorder_.backwards_since() > *r.periods.run_down_begin;
     if (torque < -least || (torque <= least && speed() >= recorder_.driven_back() && !since_off)) return {};
+    // What drives forwards will stop it within such a time: no load is stronger.
+    if (torque > least && slows_down() && std::abs(speed()) < std::abs(gain() * now_.alpha[shaft_]) * outcome_.t)
+      return {};
     const auto weak = std::find_if(contacts.begin(), contacts.end(),
                                    [](const Claim& c) { return c.predicate == Predicate::brake_does_not_stop; });
     return claimed(

@@ -46,7 +46,7 @@ class RunWords {
               "\"{}\" has not reached a steady motion by {}: {}{}{}", link(),
               p_.run_down_begin ? seconds(*p_.run_down_begin) + ", where it begins to run down" : seconds(r_.until),
               p_.verdict, p_.standstill ? fmt::format("; it rests at {}{}", seconds(*p_.standstill), held()) : "",
-              driven_by_loads()),
+              at_the_end()),
           link(), {.at = p_.run_down_begin.value_or(r_.until), .value = p_.remaining, .unit = "rad/s"});
     if (end.empty()) return {};
     return claimed(
@@ -108,7 +108,7 @@ class RunWords {
     if (!period.empty()) text += fmt::format(", where its motion repeats every {}", period);
     if (p_.run_down_begin) text += fmt::format(", runs down from {}", seconds(*p_.run_down_begin));
     if (p_.standstill) text += fmt::format(" and rests at {}{}", seconds(*p_.standstill), held());
-    text += driven_by_loads();
+    if (p_.run_down_begin) text += at_the_end();
     Evidence evidence = mean ? of(*mean) : Evidence{.value = p_.steady_speed, .unit = "rad/s"};
     evidence.at = p_.run_up_end;
     return claimed(Predicate::runs_steadily, std::move(text), link(), std::move(evidence));
@@ -119,15 +119,15 @@ class RunWords {
       if (c.predicate == Predicate::vibrates && !c.clause.empty()) return c.clause;
     return {};
   }
-  // "; it turns backwards at the end, at −21 rad/s", after its drive was switched off; or faster than ever before.
-  std::string driven_by_loads() const {
+  // "; it turns backwards at the end, at −21 rad/s"; or faster than ever before, after its drive was switched off.
+  std::string at_the_end() const {
     constexpr double least = 0.01, same = 1e-3;  // of the usual speed, of a speed
     const Figure *last = figure(quantities::final_speed), *fastest = figure(quantities::max_speed);
-    if (!p_.run_down_begin || p_.standstill || !last || !fastest) return {};
+    if (p_.standstill || !last || !fastest || r_.model->scene.run.start.speed < 0) return {};
     const double slow = least * r_.model->speed_scale;
-    if (last->value < -slow && fastest->value > slow)
+    if (last->value < -slow && (!p_.run_down_begin || fastest->value > slow))
       return fmt::format("; it turns backwards at the end, at {}", speed(last->value));
-    if (last->value < slow || last->value < (1 - same) * fastest->value) return {};
+    if (!p_.run_down_begin || last->value < std::max(slow, (1 - same) * fastest->value)) return {};
     return fmt::format("; its loads drive it on, to {} at the end", speed(last->value));
   }
   // ", held by "brake" against the 147 N·m that act on it": for a link at rest with a torque on it; a motor's is another

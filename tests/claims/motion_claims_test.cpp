@@ -126,6 +126,18 @@ TEST(Falling, IsSaidOfAWeightThatStillRisesWhenItsDriveIsSwitchedOff) {
   EXPECT_NEAR(*falls->evidence.value, 8 - 10 * 3.6, 1e-5);
 }
 
+// It falls by 5 rad until the motor is on, and is stopped by it within another second.
+TEST(Falling, IsNotSaidOfWhatIsBeingStopped) {
+  const Result r = test::run(R"(
+    line = ["motor", "drum"]
+    motor = { kind = "torque source", torque = "40 N*m", inertia = "1 kg*m2", start = "1 s" }
+    drum = { kind = "load", torque = "20 N*m", acts = "always", inertia = "1 kg*m2" }
+    run = { start = "rest", until = "1.9 s" }
+  )");
+  EXPECT_FALSE(find(r.claims, Predicate::turns_back)) << said(r);
+  EXPECT_NEAR(test::figure(r, "final_speed.drum"), -1, 1e-6);
+}
+
 // It rises until 2 s: at 2.3 s it is 0.45 rad below and at −3 rad/s, and the conclusion says so.
 TEST(Falling, IsToldByTheSpeedAtTheEndBeforeItIsFar) {
   Result r = test::run(hoist("").replace(hoist("").find("5 s"), 3, "2.3 s"));
@@ -323,6 +335,28 @@ TEST(Stalls, AreNotSaidOfWhatNeverTurned) {
     )") + sequence);
     EXPECT_FALSE(find(r.claims, Predicate::stalls)) << said(r);
     EXPECT_TRUE(said(r).starts_with("\"motor\" does not start: its loads hold the 20 N·m that drive it")) << said(r);
+  }
+}
+
+// A motor that has run 1 kg·m² up to 1e-4 of its speed, one that is told to start 1 ms before the end, and one that starts anew
+// then: no load holds them.
+TEST(Stalls, AreNotSaidOfWhatHasJustBegun) {
+  const char* const late =
+      R"(sequence = { steps = [{ at = "0 s", set = "motor", to = 0 }, { at = "0.999 s", set = "motor", to = 1 }] })";
+  for (const auto& [run, sequence] : std::array<std::pair<const char*, const char*>, 3>{
+           {{R"(start = "rest", until = "0.7 ms")", ""},
+            {R"(start = "rest", until = "1 s")", late},
+            {R"(start = { speed = "2 rad/s" }, until = "1 s")", late}}}) {
+    const Result r = test::run(fmt::format(R"(
+      line = ["motor", "mill"]
+      motor = {{ kind = "dc shunt motor", stall_torque = "20 N*m", no_load_speed = "100 rad/s", inertia = "0.2 kg*m2" }}
+      mill = {{ kind = "load", torque = "5 N*m", inertia = "0.8 kg*m2" }}
+      run = {{ {} }}
+      {}
+    )",
+                                           run, sequence));
+    EXPECT_FALSE(find(r.claims, Predicate::does_not_start)) << said(r);
+    EXPECT_FALSE(find(r.claims, Predicate::stalls)) << said(r);
   }
 }
 
