@@ -209,7 +209,7 @@ class Judge:
         if r.says("turns back") and not (m["speed_at_end"] < 0 and (m["turns_back"] or m["falls"])):
             self.contradiction("turns back, but does not", f"{m['speed_at_end']:.4g} rad/s at the end")
         negative = any(w in r.conclusion for w in ("backwards", "turns back", "at -", "away: -", "falls"))
-        if m["falls"] and m["end"] == "vibrates" and (r.says("vibrates") or "to and fro" in r.conclusion):
+        if m["falls"] and (m["end"] == "vibrates" and r.says("vibrates") or "to and fro" in r.conclusion):
             return
         if m["falls"] and not negative:
             self.omission("falls or turns back", f"{m['speed_at_end']:.4g} rad/s at the end, fastest {m['fastest']:.4g}; said: {r.sentences[0]}")
