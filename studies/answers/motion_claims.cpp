@@ -25,7 +25,7 @@ constexpr double turns_back_from = 1e-2;  // of the usual speed
 constexpr double changes_by = 0.1;        // of an amplitude: less is a lasting vibration
 constexpr double nearly = 0.2;            // of the largest speed so far: below it the link has come to a stop
 constexpr double pushes = 0.1;            // of a motor's rated torque: what holds it is reported
-constexpr double short_while = 0.02;      // of the time
+constexpr double short_while = 0.02;      // of the time, of a torque
 constexpr double dust = 1e-9;             // of the usual speed: rounding
 constexpr double same_speed = 1e-3;       // of a speed: no other one
 constexpr double gains = 1.3;             // times its speed: one that few cycles tell of grows
@@ -125,10 +125,13 @@ class Judge {
     const double torque = drive();
     if (!rests() || (is_commanded() && !motor) || holders_.brake() || !(std::abs(torque) > drives * m_.torque_scale))
       return {};
-    // Just begun: what is switched on at the end, or has no more than begun to turn.
+    // Just begun: what is switched on at the end, or has begun to turn by more than a balance leaves.
     const bool is_free = !is_held() && !holders_.any();
+    const double left = std::abs(now_.sums.torque[shaft_] / gain());
     if (outcome_.t - recorder_.driven_since() < short_while * outcome_.t) return {};
-    if (!recorder_.turned() && is_free && std::abs(speed()) > 0.5 * recorder_.fastest()) return {};
+    if (!recorder_.turned() && is_free && std::abs(speed()) > 0.5 * recorder_.fastest() &&
+        left > short_while * std::abs(torque))
+      return {};
     const Evidence evidence{.at = rest(), .value = std::abs(torque), .limit = 0, .unit = "N*m"};
     if (!recorder_.turned()) {
       const std::string holders = holders_.beside("its loads");
@@ -167,9 +170,9 @@ class Judge {
     const double torque = drive(), least = drives * m_.torque_scale;
     const bool since_off = r.periods.run_down_begin && recorder_.backwards_since() > *r.periods.run_down_begin;
     if (torque < -least || (torque <= least && speed() >= recorder_.driven_back() && !since_off)) return {};
-    // What drives forwards will stop it within such a time: no load is stronger.
-    if (torque > least && slows_down() && std::abs(speed()) < std::abs(gain() * now_.alpha[shaft_]) * outcome_.t)
-      return {};
+    // What drives forwards will stop it within half a turn: no load is stronger.
+    const double slowing = std::abs(gain() * now_.alpha[shaft_]);
+    if (torque > least && slows_down() && speed() * speed() < 2 * std::numbers::pi * slowing) return {};
     const auto weak = std::find_if(contacts.begin(), contacts.end(),
                                    [](const Claim& c) { return c.predicate == Predicate::brake_does_not_stop; });
     return claimed(

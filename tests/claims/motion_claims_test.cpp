@@ -138,6 +138,20 @@ TEST(Falling, IsNotSaidOfWhatIsBeingStopped) {
   EXPECT_NEAR(test::figure(r, "final_speed.drum"), -1, 1e-6);
 }
 
+// A press that its work turns back through a slipping clutch slows down within each cycle, and goes on backwards.
+TEST(Falling, IsSaidOfWhatSlowsDownWithinItsCycle) {
+  const Result r = test::run(R"(
+    line = ["motor", "joint", "press"]
+    motor = { kind = "dc shunt motor", stall_torque = "1606.1 N*m", no_load_speed = "140.76 rad/s", inertia = "3.6774 kg*m2" }
+    joint = { kind = "clutch", torque = "160.03 N*m", static_torque = "164.79 N*m" }
+    press = { kind = "slider-crank", radius = "56.514 mm", rod = "183.8 mm", crank_inertia = "0.57808 kg*m2", slider_mass = "26.36 kg", load = { kind = "table", force = { over = "angle", unit = ["deg", "N"], period = "360 deg", points = [[0, 0], [180, 0], [200, 11295], [330, 11295], [360, 0]] } } }
+    run = { start = { speed = "95.516 rad/s" }, until = "2.13398 s" }
+  )");
+  const Claim* falls = find(r.claims, Predicate::turns_back, "press");
+  ASSERT_TRUE(falls) << said(r);
+  EXPECT_LT(*falls->evidence.value, -50);
+}
+
 // It rises until 2 s: at 2.3 s it is 0.45 rad below and at −3 rad/s, and the conclusion says so.
 TEST(Falling, IsToldByTheSpeedAtTheEndBeforeItIsFar) {
   Result r = test::run(hoist("").replace(hoist("").find("5 s"), 3, "2.3 s"));
@@ -358,6 +372,17 @@ TEST(Stalls, AreNotSaidOfWhatHasJustBegun) {
     EXPECT_FALSE(find(r.claims, Predicate::does_not_start)) << said(r);
     EXPECT_FALSE(find(r.claims, Predicate::stalls)) << said(r);
   }
+}
+
+// 1 mN·m of 20 N·m is left: it gains 0.003 rad/s in 3 s, and the load holds it, as people say.
+TEST(Stalls, AreSaidOfWhatHardlyBegins) {
+  const Result r = test::run(R"(
+    line = ["motor", "mill"]
+    motor = { kind = "dc shunt motor", stall_torque = "20 N*m", no_load_speed = "100 rad/s", inertia = "0.2 kg*m2" }
+    mill = { kind = "load", torque = "19.999 N*m", inertia = "0.8 kg*m2" }
+    run = { start = "rest", until = "3 s" }
+  )");
+  EXPECT_TRUE(find(r.claims, Predicate::does_not_start, "motor")) << said(r);
 }
 
 // J φ″ + 2 N·m·s/rad φ′ + 20 N·m/rad (φ − 1) = 20 N·m: nothing holds it at 2 rad.
