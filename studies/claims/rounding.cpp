@@ -14,7 +14,7 @@
 namespace kurbel {
 namespace {
 
-constexpr int digits_without_error = 6, digits_if_exact = 12;
+constexpr int digits_without_error = 6, digits_of_counts = 12;
 
 // As "{:.{}e}" writes it.
 struct Scientific {
@@ -93,8 +93,10 @@ FigureText figure_text(const Estimate& estimate, int most_digits) {
   const double value = estimate.value + 0.0;  // no −0
   const std::optional<double>& error = estimate.error;
   if (!error || !std::isfinite(*error)) return {rounded_number(value, std::min(most_digits, digits_without_error)), ""};
-  if (*error == 0)
-    return {rounded_number(value, most_digits < digits_in_tables ? most_digits : digits_if_exact), "± 0"};
+  if (*error == 0) {  // a number of teeth or of rows is shown whole
+    const bool counts = most_digits >= digits_in_tables && value == std::round(value);
+    return {rounded_number(value, counts ? digits_of_counts : most_digits), "± 0"};
+  }
   if (3 * std::abs(value) <= *error && value != 0) return figure_text({0, *error + std::abs(value)}, most_digits);
   const double size = std::abs(*error);
   int place = last_place_of_error(size);

@@ -68,6 +68,16 @@ TEST(FigureText, WithoutAnErrorHasSixDigitsAtMostAndSaysSo) {
   EXPECT_EQ(error_cell({1, std::numeric_limits<double>::infinity()}), "not measured");
 }
 
+// What is exact by construction has the digits asked for; a count is shown whole.
+TEST(FigureText, ExactFiguresHaveNoMoreDigitsThanOthers) {
+  EXPECT_EQ(shown(0.883412345678, 0), "0.883412 ± 0");
+  EXPECT_EQ(shown(0.883412345678, 0, 4), "0.8834 ± 0");
+  EXPECT_EQ(shown(0.883412345678, 0, digits_in_long_forms), "0.883412346 ± 0");
+  EXPECT_EQ(shown(20.0 / 3, 0), "6.66667 ± 0");
+  EXPECT_EQ(shown(1485.5, 0), "1485.5 ± 0");
+  EXPECT_EQ(shown(123456789, 0), "123456789 ± 0");
+}
+
 // Of many values and errors over many decades: the printed error is that of the value, with what its rounding adds where both end at
 // the same place, and wastes no more than a factor of two; else the value is rounded to six digits.
 TEST(FigureText, CoversWhatItStandsForAndNoDigitIsBeyondTheError) {
