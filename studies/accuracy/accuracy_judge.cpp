@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "studies/accuracy/accuracy.h"
+#include "studies/claims/ranges.h"
 
 namespace kurbel {
 namespace {
@@ -172,8 +173,8 @@ class Judge {
       most = std::max(most, s.seconds / cheapest);
     }
     if (most == 0) return "";
-    return fmt::format("The multibody run needs {:.3g} … {:.3g} × the time of the reduced machine for no smaller error",
-                       least, most);
+    return fmt::format("The multibody run needs {} × the time of the reduced machine for no smaller error",
+                       range_text(least, most, 3));
   }
 
   AccuracyStudy& study_;

@@ -10,12 +10,13 @@
 #include <map>
 #include <tuple>
 
+#include "studies/claims/ranges.h"
 #include "studies/claims/rounding.h"
 
 namespace kurbel {
 namespace {
 
-constexpr std::string_view plus_minus = " ± ";
+constexpr std::string_view plus_minus = " ± ", of_range = " … ";
 constexpr double least_error = 1e-3;  // of its number, that a headline reports
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -227,6 +228,13 @@ std::string headline(std::string_view text) {
     const std::string_view digits = text.substr(i, number);
     i += number;
     std::string_view error = text.substr(i);
+    std::string_view end = error.starts_with(of_range) ? error.substr(of_range.size()) : std::string_view();
+    end = end.substr(0, number_at(end));
+    if (std::max(significant_digits(digits), significant_digits(end)) > headline_digits && !end.empty()) {
+      said += range_text(value_of(digits), value_of(end), headline_digits);
+      i += of_range.size() + end.size();
+      continue;
+    }
     error = error.starts_with(plus_minus) ? error.substr(plus_minus.size()) : std::string_view();
     error = error.substr(0, number_at(error));
     said += error.empty() ? rounded(digits) : rounded(digits, value_of(error));

@@ -10,6 +10,7 @@
 #include <cstdlib>
 
 #include "studies/claims/headline.h"
+#include "studies/claims/ranges.h"
 
 namespace kurbel {
 namespace {
@@ -116,6 +117,23 @@ FigureText figure_text(const Estimate& estimate, int most_digits) {
     units = units_of(size + std::abs(value - shown), place);
   }
   return {written(shown + 0.0, place), error_text(units, place)};
+}
+
+std::string range_text(double low, double high, int digits) {
+  const auto text = [](const std::string& from, const std::string& to) { return from == to ? to : from + " … " + to; };
+  const auto [least, size] = std::minmax({std::abs(low), std::abs(high)});
+  const auto place_of = [digits](double x) { return exponent_of(x) - (digits - 1); };
+  const bool known = std::isfinite(size) && size > 0;
+  const int place = known ? place_of(rounded_to(size, place_of(size))) : 0;
+  if (!known || (least > 0 && exponent_of(least) <= place))
+    return text(rounded_number(low, digits), rounded_number(high, digits));
+  std::string from = written(rounded_to(low, place) + 0.0, place), to = written(rounded_to(high, place) + 0.0, place);
+  const auto ends_with = [&](char c) { return from.ends_with(c) && to.ends_with(c); };
+  const bool decimals = from.find('.') < from.size() && to.find('.') < to.size() && from.find('e') > from.size() &&
+                        to.find('e') > to.size();
+  while (decimals && ends_with('0')) from.pop_back(), to.pop_back();
+  if (decimals && ends_with('.')) from.pop_back(), to.pop_back();
+  return text(from, to);
 }
 
 bool error_is_visible(const Estimate& estimate, const FigureText& text) {

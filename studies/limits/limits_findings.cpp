@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/scene/text.h"
+#include "studies/claims/ranges.h"
 #include "studies/findings/figure_text.h"
 
 namespace kurbel {
@@ -41,10 +42,6 @@ std::string load_text(const Verdict& v) {
 
 // A rule that bars all speeds gives no range to avoid; it is in the notes.
 bool is_reported_first(const BarredRange& b) { return !(b.everywhere && b.by == BarredRange::By::rule); }
-
-std::string range_text(const BarredRange& b, const SpeedUnit& unit) {
-  return fmt::format("{:.4g} … {}", unit.of(b.from), unit.text(b.to, 4));
-}
 
 // ": up to 939.9 N·m where 75 N·m are allowed": by a limit that is given.
 std::string excess_text(const BarredRange& b) {
@@ -134,9 +131,9 @@ std::optional<Claim> barred_claim(const std::vector<BarredRange>& ranges, const 
                  b->everywhere && number == 1
                      ? fmt::format("{} at every speed of {} ({})",
                                    b->by == BarredRange::By::sign ? "a joint with play hammers" : "barred",
-                                   range_text(*b, unit), joint)
+                                   speed_range(b->from, b->to, unit), joint)
                      : fmt::format("{} barred range{}, worst {} ({}{})", number, number == 1 ? "" : "s",
-                                   range_text(*b, unit), joint, excess_text(*b)),
+                                   speed_range(b->from, b->to, unit), joint, excess_text(*b)),
                  joint, {.value = known ? std::optional(b->peak) : std::nullopt, .limit = b->limit, .unit = "N*m"});
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/numerics/angles.h"
+#include "studies/claims/ranges.h"
 #include "studies/findings/figure_text.h"
 
 namespace kurbel {
@@ -64,16 +65,11 @@ const Margin& leading(const Margins& m) {
 
 }  // namespace
 
-std::string range_text(const OperatingSpeeds& s, const SpeedUnit& unit) {
-  if (!(s.slowest < s.fastest)) return unit.text(s.fastest, 5);
-  return fmt::format("{:.5g} … {}", unit.of(s.slowest), unit.text(s.fastest, 5));
-}
-
 Rows margin_table(const Margins& m, const SpeedUnit& unit) {
   const std::vector<std::size_t> reported = shown(m);
-  const std::string heading =
-      fmt::format("separation margins at {} ({}): {} of {} pairs of a mode and an excitation, the nearest first",
-                  range_text(m.speeds, unit), m.speeds.words, reported.size(), m.rows.size());
+  const std::string heading = fmt::format(
+      "separation margins at {} ({}): {} of {} pairs of a mode and an excitation, the nearest first",
+      speed_range(m.speeds.slowest, m.speeds.fastest, unit, 5), m.speeds.words, reported.size(), m.rows.size());
   const auto mode = [&m](const Margin& row) -> const MarginMode& { return m.modes[row.mode]; };
   const auto line = [&m](const Margin& row) -> const ExcitationLine& { return m.lines[row.line]; };
   auto table = table_of("margins", "Separation margins", m.rows);
@@ -151,7 +147,8 @@ std::optional<Claim> margin_claim(const Margins& m, const SpeedUnit& unit) {
   const Margin& front = m.rows.front();
   const Evidence nearest_row{.value = std::min(std::abs(front.margin), std::abs(front.at_largest)),
                              .limit = m.speeds.margin};
-  const std::string range = range_text(m.speeds, unit), limit = fmt::format("± {:.3g} %", 100 * m.speeds.margin);
+  const std::string range = speed_range(m.speeds.slowest, m.speeds.fastest, unit, 5),
+                    limit = fmt::format("± {:.3g} %", 100 * m.speeds.margin);
   const auto within = std::count_if(m.rows.begin(), m.rows.end(), [](const Margin& row) { return row.within; });
   const std::string nearest = pair_text(m, m.rows.front(), unit);
   double least = 1;  // probability that a margin is kept

@@ -11,9 +11,6 @@
 
 namespace kurbel {
 
-// "1340 … 1640 rpm"
-std::string range_text(const OperatingSpeeds& speeds, const SpeedUnit& unit);
-
 // People see all rows with too small a margin and the nearest others; programs and the file all rows.
 Rows margin_table(const Margins& margins, const SpeedUnit& unit);
 Record operating_range(const Margins& margins);

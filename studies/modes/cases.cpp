@@ -9,6 +9,7 @@
 #include "engine/numerics/deadline.h"
 #include "engine/reading/read_scene.h"
 #include "engine/scene/messages.h"
+#include "studies/claims/ranges.h"
 #include "studies/findings/output.h"
 #include "studies/findings/plots.h"
 #include "studies/modes/modes.h"
@@ -190,8 +191,8 @@ std::string barred_text(const ModesStudy& of) {
   for (const BarredRange& b : of.barred)
     if (b.by != BarredRange::By::sign)
       text +=
-          fmt::format("{}{:.4g} … {:.4g} ({}){}", text.empty() ? "" : "; ", of.speed_unit.of(b.from),
-                      of.speed_unit.of(b.to), of.limited[b.joint].name,
+          fmt::format("{}{} ({}){}", text.empty() ? "" : "; ",
+                      range_text(of.speed_unit.of(b.from), of.speed_unit.of(b.to)), of.limited[b.joint].name,
                       run.known() && b.from < run.fastest && b.to > run.slowest ? ", within the operating speeds" : "");
   return text.empty() ? "none" : text;
 }

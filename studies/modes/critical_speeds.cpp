@@ -12,6 +12,7 @@
 #include "engine/numerics/angles.h"
 #include "engine/numerics/deadline.h"
 #include "engine/scene/quantity_place.h"
+#include "studies/claims/ranges.h"
 #include "studies/modes/campbell.h"
 
 namespace kurbel {
@@ -234,8 +235,8 @@ void omit_speeds_not_held(ModesStudy& found) {
   std::string where;
   for (const SpeedStretch& s : stretches(found.sweep))
     if (!s.kept)
-      where += fmt::format("{}{:.4g} … {}", where.empty() ? "" : ", ", found.speed_unit.of(found.sweep[s.begin].speed),
-                           found.speed_unit.text(found.sweep[s.end - 1].speed, 4));
+      where += (where.empty() ? "" : ", ") +
+               speed_range(found.sweep[s.begin].speed, found.sweep[s.end - 1].speed, found.speed_unit);
   if (where.empty()) return;
   const auto is_kept = [&](const CriticalSpeed& c) { return found.sweep[nearest_of(found.sweep, c.speed)].kept; };
   const auto kept = std::stable_partition(found.critical.begin(), found.critical.end(), is_kept);

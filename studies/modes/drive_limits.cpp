@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "engine/numerics/index.h"
+#include "studies/claims/ranges.h"
 #include "studies/limits/limits_findings.h"
 #include "studies/modes/critical_speeds.h"
 
@@ -90,11 +91,11 @@ void find_barred_ranges(const Model& model, double factor, const std::function<S
     for (BarredRange& range : barred_ranges(found.limited, sweep, factor, loads))
       found.barred.push_back(std::move(range));
     for (const BarredRange& range : beyond_by_mean(found.limited, sweep, loads))
-      found.notes.push_back(fmt::format(
-          "not assessed: whether \"{}\" may run at {:.4g} … {}: the mean torque there, with what accelerates "
-          "the machine or slows it, is beyond its {} by itself; at constant speed it is another one",
-          found.limited[range.joint].name, found.speed_unit.of(range.from), found.speed_unit.text(range.to, 4),
-          reason_in_words(range)));
+      found.notes.push_back(
+          fmt::format("not assessed: whether \"{}\" may run at {}: the mean torque there, with what accelerates "
+                      "the machine or slows it, is beyond its {} by itself; at constant speed it is another one",
+                      found.limited[range.joint].name, speed_range(range.from, range.to, found.speed_unit),
+                      reason_in_words(range)));
   }
 }
 

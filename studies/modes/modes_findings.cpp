@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/numerics/index.h"
+#include "studies/claims/ranges.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/result.h"
 #include "studies/limits/limits_findings.h"
@@ -113,9 +114,8 @@ Rows mode_table(const ModesStudy& m) {
     table.only_for_people("energy of the damped mode", [&](const Mode& mode) { return energy_text(m, mode); });
   table.only_for_people("numerical error [Hz]", error_text);
   if (std::any_of(m.modes.begin(), m.modes.end(), [](const Mode& mode) { return mode.least < mode.greatest; }))
-    table.only_for_people("held at angles [Hz]", [](const Mode& mode) {
-      return fmt::format("{:.5g} … {:.5g}", hertz(mode.least), hertz(mode.greatest));
-    });
+    table.only_for_people("held at angles [Hz]",
+                          [](const Mode& mode) { return range_text(hertz(mode.least), hertz(mode.greatest), 5); });
   if (std::any_of(m.modes.begin(), m.modes.end(),
                   [](const Mode& mode) { return mode.only_of_mean || !mode.periodic.empty(); }))
     table.only_for_people("periodic system [Hz], ζ", periodic_text)

@@ -10,6 +10,7 @@
 
 #include "engine/numerics/index.h"
 #include "engine/scene/text.h"
+#include "studies/claims/ranges.h"
 #include "studies/findings/plots.h"
 #include "studies/findings/rows.h"
 #include "studies/limits/limits_findings.h"
@@ -239,8 +240,8 @@ Plot sweep_plot(const ModesStudy& m, std::size_t j) {
   for (const BarredRange& b : m.barred) {
     if (b.joint != j) continue;
     plot.bands.push_back({m.speed_unit.of(b.from), m.speed_unit.of(b.to), "barred", Role::vermillion});
-    plot.note += fmt::format("{}Barred {:.4g} … {} by {}.", plot.note.empty() ? "" : " ", m.speed_unit.of(b.from),
-                             m.speed_unit.text(b.to, 4), reason_in_words(b));
+    plot.note += fmt::format("{}Barred {} by {}.", plot.note.empty() ? "" : " ",
+                             speed_range(b.from, b.to, m.speed_unit), reason_in_words(b));
   }
   return in_readable_unit(std::move(plot), "N*m", largest);
 }

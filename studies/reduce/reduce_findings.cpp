@@ -8,6 +8,7 @@
 
 #include "engine/numerics/angles.h"
 #include "engine/scene/units.h"
+#include "studies/claims/ranges.h"
 #include "studies/findings/output.h"
 #include "studies/reduce/reduce.h"
 #include "studies/reduce/reduce_plots.h"
@@ -35,9 +36,7 @@ std::string conclusion_of(const MachineReduction& r) {
     return fmt::format("Reduced to {}, the machine has {:.5g} {}{}", r.to, least ? least->inertia : 0.0,
                        pretty_unit(names_of(r).inertia_unit),
                        r.turns_back ? " or more, infinite in the dead centres" : "");
-  const std::string low = fmt::format("{:.5g}", least ? least->inertia : 0.0),
-                    high = fmt::format("{:.5g}", most ? most->inertia : 0.0),
-                    range = low == high ? low : low + " … " + high;
+  const std::string range = range_text(least ? least->inertia : 0, most ? most->inertia : 0, 5);
   if (r.basis == CycleBasis::steady)
     return fmt::format("Reduced to {}, the machine has {} kg·m² along its steady cycle", r.to, range);
   const std::string constant = fmt::format("{:.5g}", r.constant_inertia);
@@ -319,9 +318,7 @@ Rows chain_table(const Chain& chain, const std::string& to, double slowest, doub
     for (std::size_t k = 0; k < lines.size(); ++k) {
       const double i = std::abs(k < chain.inertias.size() ? chain.inertias[k].ratio
                                                           : chain.springs[k - chain.inertias.size()].ratio);
-      lines[k].insert(lines[k].begin() + 4, slowest < fastest ? fmt::format("{} … {}", number(unit.of(i * slowest), 5),
-                                                                            number(unit.of(i * fastest), 5))
-                                                              : number(unit.of(i * fastest), 5));
+      lines[k].insert(lines[k].begin() + 4, range_text(unit.of(i * slowest), unit.of(i * fastest), 5));
     }
   }
   Rows table = words_table(fmt::format("Drive as an elastic chain, reduced to {}", to), headings, lines);

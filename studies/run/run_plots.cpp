@@ -15,6 +15,7 @@
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/answers/measured_names.h"
 #include "studies/claims/headline.h"
+#include "studies/claims/ranges.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/plots.h"
 #include "studies/findings/trace.h"
@@ -103,7 +104,7 @@ std::optional<Plot> over_angle(const Results& results, const std::string& channe
       if (trace.name != channel) continue;
       if (plot.series.empty()) si_unit = trace.unit;
       plot.note =
-          fmt::format("Last whole {} ({}: {:.4g} … {:.4g} s).", cycle_of_traces(*r), r->label, last.begin, last.end);
+          fmt::format("Last whole {} ({}: {} s).", cycle_of_traces(*r), r->label, range_text(last.begin, last.end));
       Series& series = plot.series.emplace_back(series_of(trace, r->label, role_of(*r, results)));
       for (double& x : series.x) x *= 180 / std::numbers::pi;
     }

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "engine/scene/keys.h"
+#include "studies/claims/ranges.h"
 #include "studies/findings/figure_text.h"
 #include "studies/findings/thin.h"
 #include "studies/sweep/sweep_plots.h"
@@ -350,14 +351,14 @@ Claims share_claims(const std::vector<LimitCount>& limits, std::size_t failed, s
     if (const auto decided = static_cast<double>(c.decided()); decided > 0) {
       const bool by_chance = std::isfinite(c.interval.low);  // a grid has no interval
       add(claims,
-          claimed_aside(
-              Predicate::share_holds,
-              limit_in_words(c.limit) + (by_chance ? fmt::format(" holds in {:.3g} … {:.3g} % of such machines",
-                                                                 100 * c.interval.low, 100 * c.interval.high)
-                                                   : fmt::format(" holds in {} of {} machines", c.holds, c.decided())),
-              {},
-              {.value = static_cast<double>(c.holds) / decided,
-               .error = by_chance ? std::optional(0.5 * (c.interval.high - c.interval.low)) : std::nullopt}));
+          claimed_aside(Predicate::share_holds,
+                        limit_in_words(c.limit) +
+                            (by_chance ? fmt::format(" holds in {} % of such machines",
+                                                     range_text(100 * c.interval.low, 100 * c.interval.high, 3))
+                                       : fmt::format(" holds in {} of {} machines", c.holds, c.decided())),
+                        {},
+                        {.value = static_cast<double>(c.holds) / decided,
+                         .error = by_chance ? std::optional(0.5 * (c.interval.high - c.interval.low)) : std::nullopt}));
     }
   return claims;
 }

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "engine/scene/units.h"
+#include "studies/claims/ranges.h"
 #include "studies/sweep/sweep_plots.h"
 
 namespace kurbel {
@@ -28,7 +29,7 @@ struct Variable {
 
   std::string ends() const {
     if (!words.empty()) return fmt::format("{} words", words.size());
-    return fmt::format("{:.4g} … {:.4g}{}", factor * least, factor * greatest, unit);
+    return range_text(factor * least, factor * greatest) + unit;
   }
   std::string text_at(const SweepRow& row) const {
     if (!words.empty()) return name + " " + words.at(static_cast<std::size_t>(value(row)));

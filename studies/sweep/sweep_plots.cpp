@@ -8,6 +8,7 @@
 
 #include "engine/base/find_by.h"
 #include "engine/scene/units.h"
+#include "studies/claims/ranges.h"
 #include "studies/findings/thin.h"
 
 namespace kurbel {
@@ -174,7 +175,7 @@ Plot map_of(const SweepStudyResult& s, std::size_t figure, std::size_t a, std::s
     const Role roles[] = {Role::purple, Role::elastic, Role::sky, Role::green, Role::orange};
     for (std::size_t fifth = 0; fifth < 5; ++fifth) {
       const double low = values[fifth * (values.size() - 1) / 5], high = values[(fifth + 1) * (values.size() - 1) / 5];
-      const std::string name = fmt::format("{:.4g} … {:.4g} {}", unit.factor * low, unit.factor * high, unit.unit);
+      const std::string name = fmt::format("{} {}", range_text(unit.factor * low, unit.factor * high), unit.unit);
       add(name, roles[fifth], [&](const SweepRow& r) {
         const double v = value_in(r, figure);
         return (fifth == 0 ? v >= low : v > low) && v <= high;

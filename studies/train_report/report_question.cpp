@@ -12,6 +12,7 @@
 #include "engine/scene/document.h"
 #include "engine/scene/messages.h"
 #include "engine/scene/units.h"
+#include "studies/claims/ranges.h"
 #include "studies/findings/figure_text.h"
 #include "studies/question/question.h"
 #include "studies/reduce/reduce.h"
@@ -199,11 +200,9 @@ class TrainReport {
       lines.push_back({"set beside it", fmt::format("{}", fmt::join(inquiry_.settings, "; "))});
     if (const double fastest = number_in(range(), "fastest"); fastest > 0) {
       const double slowest = number_in(range(), "slowest");
-      lines.push_back(
-          {"operating speeds",
-           fmt::format("{}{}, {}; margin wanted ± {:.3g} %",
-                       slowest < fastest ? fmt::format("{:.5g} … ", scene.speed_unit.of(slowest)) : "",
-                       scene.speed_unit.text(fastest, 5), word_in(range(), "of"), 100 * number_in(range(), "margin"))});
+      lines.push_back({"operating speeds", fmt::format("{}, {}; margin wanted ± {:.3g} %",
+                                                       speed_range(slowest, fastest, scene.speed_unit, 5),
+                                                       word_in(range(), "of"), 100 * number_in(range(), "margin"))});
     }
     lines.push_back({"effects", scene.effects.describe()});
     for (const Part& part : *parts_)

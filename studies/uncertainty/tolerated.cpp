@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "engine/scene/units.h"
+#include "studies/claims/ranges.h"
 #include "studies/variants/machine.h"
 
 namespace kurbel {
@@ -55,7 +56,7 @@ std::string Tolerated::in_words() const {
   const char* const name = given_.distribution == normal    ? "normal"
                            : given_.distribution == uniform ? "uniform"
                                                             : "triangular";
-  std::string text = fmt::format("{:.6g}{}, {:.6g} … {:.6g}, {}", given_.value, unit, given_.low, given_.high, name);
+  std::string text = fmt::format("{:.6g}{}, {}, {}", given_.value, unit, range_text(given_.low, given_.high, 6), name);
   if (given_.distribution == normal) text += fmt::format(" (k = {:g})", given_.k);
   if (cut_off() > 1e-9) text += fmt::format(", {:.2g} % cut off where the key's domain ends", 100 * cut_off());
   return text;

@@ -8,6 +8,8 @@
 #include <random>
 #include <string>
 
+#include "studies/claims/headline.h"
+#include "studies/claims/ranges.h"
 #include "studies/findings/output.h"
 
 namespace kurbel::figure_text_test {
@@ -76,6 +78,42 @@ TEST(FigureText, ExactFiguresHaveNoMoreDigitsThanOthers) {
   EXPECT_EQ(shown(20.0 / 3, 0), "6.66667 ± 0");
   EXPECT_EQ(shown(1485.5, 0), "1485.5 ± 0");
   EXPECT_EQ(shown(123456789, 0), "123456789 ± 0");
+}
+
+TEST(Ranges, HaveEndsOfOnePlace) {
+  EXPECT_EQ(range_text(56.7912, 63.0012), "56.79 … 63.00");
+  EXPECT_EQ(range_text(5, 7.5), "5.0 … 7.5");
+  EXPECT_EQ(range_text(20, 200), "20 … 200");
+  EXPECT_EQ(range_text(-17.64, 2), "-17.64 … 2.00");
+  EXPECT_EQ(range_text(99.4, 99.997), "99.4 … 100.0");
+  EXPECT_EQ(range_text(0, 0.3), "0.0 … 0.3");
+  EXPECT_EQ(range_text(12345.6, 23456.7), "12350 … 23460");
+  EXPECT_EQ(range_text(0.1234, 350.1), "0.1234 … 350.1");
+  EXPECT_EQ(range_text(1.23456e-6, 2e-6), "1.235e-06 … 2.000e-06");
+  EXPECT_EQ(range_text(63.0012, 63.0013), "63");
+  EXPECT_EQ(range_text(0, 0), "0");
+  EXPECT_EQ(headline("at 56.79123 … 63.00123 rpm, 1340 … 1640 rpm"), "at 56.79 … 63.00 rpm, 1340 … 1640 rpm");
+}
+
+// Of ends of one size: as many decimals behind both points, and each within half a unit of its last place.
+TEST(Ranges, OfAnySizeHaveAsManyDecimalsAtBothEnds) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> decade(-2, 8), share(0.1, 1);
+  for (int i = 0; i < 5000; ++i) {
+    const double high = std::pow(10, decade(random)), low = (i % 3 ? 1 : -1) * share(random) * high;
+    const int digits = 3 + i % 3;
+    const std::string text = range_text(low, high, digits);
+    const std::size_t between = text.find(" … ");
+    if (between == std::string::npos) continue;
+    const std::string ends[] = {text.substr(0, between), text.substr(between + std::string(" … ").size())};
+    const auto decimals = [](const std::string& end) {
+      return end.find('.') == std::string::npos ? 0 : end.size() - end.find('.') - 1;
+    };
+    EXPECT_EQ(decimals(ends[0]), decimals(ends[1])) << text;
+    const double unit = std::pow(10, std::floor(std::log10(high)) - digits + 1);
+    EXPECT_NEAR(std::stod(ends[0]), low, 5.01 * unit) << text;
+    EXPECT_NEAR(std::stod(ends[1]), high, 0.501 * unit) << text;
+  }
 }
 
 // Of many values and errors over many decades: the printed error is that of the value, with what its rounding adds where both end at
