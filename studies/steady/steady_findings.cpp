@@ -86,16 +86,18 @@ auto multiplier_table(const SteadyCycle& c) {
 
 Rows shaft_table(const SteadyStudy& s) {
   const std::vector<ShaftFluctuation>& first = s.cycles.front().shafts;
-  auto table = table_of("", "Speed fluctuation δ at every shaft", numbers_below(first.size())).not_on_terminal();
+  auto table = table_of("", "Speeds of the shafts", numbers_below(first.size())).not_on_terminal();
   table.always();
   const SpeedUnit unit = s.speed_unit;
   table.only_for_people("shaft", [&](std::size_t i) { return first[i].shaft; });
   table.only_for_people("ratio to the link", [&](std::size_t i) { return first[i].ratio; }, {.digits = 5});
   for (const SteadyCycle& c : s.cycles)
     if (c.found) {
+      if (c.kind != Orbit::Kind::equilibrium) table.title = "Speed fluctuation δ at every shaft";
       table.only_for_people(fmt::format("mid speed [{}], {}", unit.name, c.label),
                             [&](std::size_t i) { return unit.of(c.shafts[i].mid()); });
-      table.only_for_people("δ, " + c.label, [&](std::size_t i) { return c.shafts[i].delta(); });
+      if (c.kind != Orbit::Kind::equilibrium)  // there it is rounding
+        table.only_for_people("δ, " + c.label, [&](std::size_t i) { return c.shafts[i].delta(); });
     }
   return table;
 }
@@ -327,7 +329,8 @@ void add_key_figures(Findings& f, const SteadyStudy& s) {
     if (!c.found) continue;
     if (const Figure* mean = c.find("mean_speed." + s.link))
       f.figures.push_back({*mean / unit.size, "mean speed, " + c.label, unit.name, "", 0, mean->name});
-    if (const Figure* delta = c.find("delta." + s.link)) f.key("speed fluctuation δ, " + c.label, *delta, delta->name);
+    if (const Figure* delta = c.find("delta." + s.link); delta && c.kind != Orbit::Kind::equilibrium)
+      f.key("speed fluctuation δ, " + c.label, *delta, delta->name);
     if (!c.point.multipliers.empty())
       f.key(
           "deviation that remains after a cycle, " + c.label,
@@ -346,7 +349,7 @@ void show_formulas(Findings& f, Chapter in, const SteadyStudy& s) {
   for (const SteadyCycle& c : s.cycles) {
     const Figure *delta = c.find("delta." + s.link), *max = c.find("cycle_max_speed." + s.link),
                  *min = c.find("cycle_min_speed." + s.link);
-    if (!delta || !max || !min) continue;
+    if (!delta || !max || !min || c.kind == Orbit::Kind::equilibrium) continue;
     f.show(in,
            Formulas().add(fmt::format("Speed fluctuation of {}, {} model (theory 2.6)", s.link, c.label),
                           "δ = (ω_max − ω_min) / ω_mid,   ω_mid = (ω_max + ω_min)/2",

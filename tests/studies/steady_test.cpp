@@ -9,6 +9,7 @@
 #include <random>
 
 #include "studies/question/option.h"
+#include "studies/report/render.h"
 #include "tests/published/published.h"
 #include "tests/support/conclusions.h"
 
@@ -130,6 +131,19 @@ TEST(Steady, StabilityOfAnEquilibriumIsStatedInSeconds) {
   const SteadyCycle& c = study.cycles[0];
   ASSERT_EQ(c.kind, Orbit::Kind::equilibrium);
   EXPECT_TRUE(has(c.stability, "halves in 0.231 s")) << c.stability;  // 0.5 kg·m² · 40 rad/s / 60 N·m · ln 2
+}
+
+// All speeds are constant: a δ would be rounding. Beside it a motion that fluctuates has one.
+TEST(SteadyOutput, AnEquilibriumHasNoSpeedFluctuation) {
+  const SteadyStudy study =
+      steady(scene_from(dc_against("load = { kind = \"load\", torque = \"15 N*m\" }\n")), {Effects{}}, {});
+  ASSERT_EQ(study.cycles[0].kind, Orbit::Kind::equilibrium);
+  EXPECT_FALSE(has(html_of(output_of(study).report()), "δ, rigid"));
+  EXPECT_FALSE(has(html_of(output_of(study).report()), "Speed fluctuation"));
+  const Scene turning = scene_file("scenes/driven_slider_crank.toml");
+  const std::string page = html_of(output_of(steady(turning, {Effects{}}, {.start_search = false})).report());
+  EXPECT_TRUE(has(page, "δ, rigid"));
+  EXPECT_TRUE(has(page, "Speed fluctuation δ at every shaft"));
 }
 
 // The mean of M = M_s (1 − ω/ω₀) over time is that of ω: 2π/T.
