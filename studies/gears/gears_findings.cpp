@@ -37,7 +37,8 @@ std::string summary_of(const GearStage& s) {
   for (const GearVerdict& v : s.verdicts)
     if (v.finding == worst && ++count == 1) first = v.text;
   while (first.ends_with('.')) first.pop_back();
-  return text + fmt::format(": {}{}", first, count > 1 ? fmt::format(" (and {} more)", count - 1) : "");
+  return text + fmt::format(": {}{}", first,
+                            count > 1 ? fmt::format(" (first of {} {}s in its verdicts)", count, word_of(worst)) : "");
 }
 
 std::string conclusion_of(const Gears& g) {
@@ -331,7 +332,7 @@ void say_stage(Findings& f, const GearStage& s) {
   std::vector<std::string> verdicts;
   for (const GearVerdict& v : s.verdicts) verdicts.push_back(fmt::format("{}: {}", word_of(v.finding), v.text));
   f.draw(in, [&s] { return Cards{drawing_of(s)}; });
-  f.say(in, Sentences{.lines = verdicts, .title = "Verdict", .terminal = false});
+  f.say(in, Sentences{.lines = verdicts, .title = "Verdicts", .terminal = false});
   f.draw(in, [&s] { return plots_of(s); });
   f.show(in, formulas_of(s));
   Rows wheels = wheels_of(s).rows();
@@ -341,7 +342,7 @@ void say_stage(Findings& f, const GearStage& s) {
   Rows path = path_table(s);
   path.key = "";
   f.say(in, std::move(path));
-  f.say(in, Sentences{.lines = {""}, .page = false});
+  f.say(in, Sentences{.lines = {"", "verdicts"}, .page = false});
   f.say(in, Sentences{.lines = verdicts, .indent = "  ", .page = false});
   f.tables.push_back({s.name + ".path", [&p = s.pair] { return path_data(p); }});
   for (const std::size_t i : {0UL, 1UL})

@@ -124,6 +124,16 @@ TEST(GearsStudy, ReportDrawsWholeWheelsAndSaysTheNumbers) {
 using test::Said;
 constexpr auto kurbel = test::said_by_program;
 
+// Where a pair has several findings of one severity, the conclusion shows one and says where the others are.
+TEST(GearsCommand, OneOfSeveralWarningsNamesThePlaceOfTheOthers) {
+  const std::string text = kurbel("gears --teeth 9 60 --module '4 mm' --no-files").text;
+  EXPECT_NE(text.find("customary (first of 3 warnings in its verdicts)"), std::string::npos) << text;
+  std::size_t warnings = 0;
+  for (std::size_t at = text.find("\nverdicts\n"); at != std::string::npos; at = text.find("\n  warning: ", at + 1))
+    ++warnings;
+  EXPECT_EQ(warnings, 4u) << text;  // the heading and three
+}
+
 TEST(GearsCommand, PairAloneOnTheCommandLine) {
   const Said said = kurbel(
       "gears --no-files --json --teeth 31 30 --module '3.5 mm' --helix '21 deg' "
