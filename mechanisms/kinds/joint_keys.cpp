@@ -126,13 +126,14 @@ Fields<Guide> guide() {
            &Guide::off);
 }
 
-// "crank pin" of crank_pin; of a linkage "pin A" of A and "slide ram" of ram.
+// "crank pin" of crank_pin; of a linkage "pin A" of A and "slide ram" of ram, unless there are both of one name.
 std::string joint_named(const std::string& name, const std::set<std::string>& joints) {
   std::string spaced = name;
   std::replace(spaced.begin(), spaced.end(), '_', ' ');
+  std::set<std::string> found;
   for (const std::string& known : {name, spaced, "pin " + name, "slide " + name})
-    if (joints.count(known)) return known;
-  return {};
+    if (joints.count(known)) found.insert(known);
+  return found.size() == 1 ? *found.begin() : std::string();
 }
 
 const Tables<Guide>& guides() {

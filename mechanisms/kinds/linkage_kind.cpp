@@ -284,14 +284,17 @@ class SketchReader {
     const std::string output = k_.output.value_or(s_.links.back().name);
     LinkageSketch::Output& to = s_.output;
     to.link = index_of(s_.links, output);
-    if (to.link >= 0) {
+    const int point = index_of(s_.points, output);
+    const bool both = k_.output && to.link >= 0 && point >= 0;
+    if (to.link >= 0 && !both) {
       for (const LinkageSketch::Slide& slide : s_.slides)
         if (slide.link == to.link && slide.on == LinkageSketch::frame)
           to.point = s_.links[static_cast<std::size_t>(to.link)].points.front(), to.angle = slide.angle;
       if (k_.output_along)
         valid_ =
             k_.refuse(&LinkageKeys::output_along, "belongs to a point as the output; of a link it follows from it");
-    } else if (to.point = index_of(s_.points, output); to.point >= 0) {
+    } else if (point >= 0 && !both) {
+      to.point = point;
       to.angle = k_.output_along.value_or(0);
       for (std::size_t k = 0; k < s_.links.size(); ++k)
         if (s_.has(static_cast<int>(k), to.point) && (to.link < 0 || static_cast<int>(k) != s_.driver))
@@ -302,7 +305,7 @@ class SketchReader {
       std::vector<std::string> names = names_of(s_.links), points = names_of(s_.points);
       names.insert(names.end(), points.begin(), points.end());
       valid_ = k_.refuse(&LinkageKeys::output, fmt::format("output = \"{}\"{}; must be a link or a point", output,
-                                                           suggestion(output, names)));
+                                                           both ? " is both" : suggestion(output, names)));
     }
     if (!valid_) return;
     if (to.rocks() && !k_.mounting.loads.empty())
