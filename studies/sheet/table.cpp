@@ -23,10 +23,12 @@ struct Layout {
   std::vector<ColumnTexts> texts;
   std::vector<double> left;  // of each column, and the right end
   double size = letter_size, row = least_height;
+  double larger() const { return std::max(1.0, size / letter_size); }  // than on A4
+  double head() const { return head_height * larger(); }
 };
 
-// Columns as wide as their widest cell; a table that is too wide is written smaller.
-Layout laid_out(const SheetTable& t, const Box& room) {
+// Columns as wide as their widest cell; a table that is too wide is written smaller, on larger paper up to `larger`.
+Layout laid_out(const SheetTable& t, const Box& room, double larger) {
   Layout l;
   std::vector<double> widths = {12};
   for (const SheetColumn& c : t.columns) {
@@ -38,8 +40,8 @@ Layout laid_out(const SheetTable& t, const Box& room) {
   }
   double sum = 0;
   for (const double w : widths) sum += w;
-  const double factor = std::min(room.width / sum, 1.25);
-  l.size = letter_size * std::min(1.0, factor);
+  const double factor = std::min(room.width / sum, 1.25 * larger);
+  l.size = letter_size * std::min(larger, factor);
   l.left = {room.x};
   for (const double w : widths) l.left.push_back(l.left.back() + w * factor);
   return l;
@@ -47,17 +49,18 @@ Layout laid_out(const SheetTable& t, const Box& room) {
 
 void draw_head(Canvas& c, const SheetTable& t, const Layout& l, double top) {
   const auto middle = [&](std::size_t k) { return 0.5 * (l.left[k] + l.left[k + 1]); };
-  c.words({middle(0), top + 5}, "№", {.size = l.size, .at = "middle", .bold = true});
+  const double symbols = top + 5 * l.larger(), units = top + 10 * l.larger();
+  c.words({middle(0), symbols}, "№", {.size = l.size, .at = "middle", .bold = true});
   for (std::size_t k = 0; k < t.columns.size(); ++k) {
-    c.symbols({middle(k + 1), top + 5}, t.columns[k].symbol, {.size = l.size, .at = "middle", .bold = true});
-    c.words({middle(k + 1), top + 10}, power_of_ten(l.texts[k].exponent) + t.columns[k].unit,
+    c.symbols({middle(k + 1), symbols}, t.columns[k].symbol, {.size = l.size, .at = "middle", .bold = true});
+    c.words({middle(k + 1), units}, power_of_ten(l.texts[k].exponent) + t.columns[k].unit,
             {.size = 2.5 * l.size / letter_size, .at = "middle"});
   }
 }
 
 void draw_rows(Canvas& c, const SheetTable& t, const Layout& l, double top, std::size_t from, std::size_t to) {
   for (std::size_t i = from; i < to; ++i) {
-    const double y = top + l.row * static_cast<double>(i - from), line = y + 0.5 * l.row + 1.1;
+    const double y = top + l.row * static_cast<double>(i - from), line = y + 0.5 * l.row + 1.1 * l.larger();
     const bool stressed = i < t.stressed.size() && t.stressed[i];
     const Pen pen = stressed ? Pen::load : Pen::body;
     c.line({l.left.front(), y}, {l.left.back(), y}, Pen::grid);
@@ -103,14 +106,16 @@ ColumnTexts texts_of(const SheetColumn& column) {
 
 void add_table(Sheets& sheets, const SheetTable& table) {
   const Box room = sheets.room();
-  const double height = room.height - head_height - 10;
+  // On larger paper larger letters, if all rows stay on one sheet.
+  const double most = room.width / Sheets({}, {}).room().width, height = room.height - most * head_height - 10,
+               row = height / static_cast<double>(table.labels.size());
   const auto fit = static_cast<std::size_t>(height / least_height);
-  Layout layout = laid_out(table, room);
-  layout.row = std::clamp(height / static_cast<double>(table.labels.size()), least_height, greatest_height);
+  Layout layout = laid_out(table, room, std::clamp(row / least_height, 1.0, most));
+  layout.row = std::clamp(row, least_height, greatest_height * layout.larger());
   for (std::size_t from = 0; from < table.labels.size(); from += fit) {
     const std::size_t to = std::min(table.labels.size(), from + fit);
     Canvas& c = sheets.add(table.title);
-    const double top = room.y + 8, body = top + head_height,
+    const double top = room.y + 8, body = top + layout.head(),
                  bottom = body + layout.row * static_cast<double>(to - from);
     c.words({room.x, room.y + 4}, table.title + (from > 0 ? ", continued" : ""), {.size = 4, .bold = true});
     draw_head(c, table, layout, top);

@@ -13,6 +13,7 @@ namespace kurbel {
 namespace {
 
 constexpr double free_edge = 7, head = 5, letters = 2.6;
+constexpr double least_cell = 80;       // [mm]
 constexpr double shortest_named = 1.2;  // of arrows [mm]
 
 // Where a plan reaches to, turned as it is drawn, in its unit; with its pole, or its first force's begin.
@@ -170,21 +171,38 @@ class PlanDrawer {
   Spot zero_;
 };
 
+// Of all plans in one scale.
+double finest_of(const std::vector<VectorPlan>& plans, const PlansOnSheet& form, const Box& cell) {
+  double common = 0;
+  for (const VectorPlan& p : plans) common = std::max(common, finest(extent_of(p, form.direction), cell));
+  return common;
+}
+
+// As few sheets as cells of the least size allow, as many plans on each as near as may be, in the cells that take them
+// largest.
+std::pair<int, int> grid_of(const Box& room, const PlansOnSheet& form, const std::vector<VectorPlan>& plans) {
+  const auto parts = [](int all, int size) { return std::max(1, (all + size - 1) / size); };
+  const int most_columns = form.columns > 0 ? form.columns : static_cast<int>(room.width / least_cell),
+            most_rows = form.rows > 0 ? form.rows : static_cast<int>(room.height / least_cell),
+            count = static_cast<int>(plans.size()), on_each = parts(count, parts(count, most_columns * most_rows));
+  std::pair<int, int> best = {most_columns, std::min(most_rows, parts(on_each, most_columns))};
+  double least = HUGE_VAL;
+  for (int columns = form.columns > 0 ? most_columns : 1; columns <= most_columns; ++columns) {
+    const int rows = form.together * parts(parts(on_each, columns), form.together);
+    const double scale = finest_of(plans, form, {0, 0, room.width / columns, room.height / rows});
+    if (rows <= most_rows && scale < least) least = scale, best = {columns, rows};
+  }
+  return best;
+}
+
 }  // namespace
 
 void add_plans(Sheets& sheets, const PlansOnSheet& form, const std::vector<VectorPlan>& plans) {
   const Box room = sheets.room();
-  const int columns = form.columns > 0 ? form.columns : static_cast<int>(room.width / 80),
-            rows = form.rows > 0 ? form.rows : static_cast<int>(room.height / 80);
+  const auto [columns, rows] = grid_of(room, form, plans);
   const Box cell = {0, 0, room.width / columns, room.height / rows};
-  double common = 0;
-  for (const VectorPlan& p : plans) common = std::max(common, finest(extent_of(p, form.direction), cell));
-  const Scale shared = scale_for(form.scale, form.unit, common, 1);
-  auto on_a_sheet = static_cast<std::size_t>(columns * rows);
-  if (form.columns == 0) {  // as many on each, as near as may be
-    const std::size_t count = (plans.size() + on_a_sheet - 1) / on_a_sheet;
-    on_a_sheet = (plans.size() + count - 1) / std::max<std::size_t>(1, count);
-  }
+  const Scale shared = scale_for(form.scale, form.unit, finest_of(plans, form, cell), 1);
+  const auto on_a_sheet = static_cast<std::size_t>(columns * rows);
   for (std::size_t from = 0; from < plans.size(); from += on_a_sheet) {
     Canvas& c = sheets.add(form.what, form.each_to_its_own ? "" : shared.words());
     for (std::size_t k = from; k < std::min(plans.size(), from + on_a_sheet); ++k) {

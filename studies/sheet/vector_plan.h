@@ -29,7 +29,8 @@ struct VectorPlan {
 struct PlansOnSheet {
   std::string what, note;        // in the title block; beside it
   std::string scale, unit;       // "μ_v", "m/s"
-  int columns = 0, rows = 0;     // of cells on a sheet; 0: as many as are 80 mm or more
+  int columns = 0, rows = 0;     // of cells on a sheet at most; 0: as many as are 80 mm or more
+  int together = 1;              // rows that one sheet takes
   double direction = 0;          // of the mechanism's +x above the horizontal [rad]
   bool each_to_its_own = false;  // each plan has its own scale; else all have one
 };

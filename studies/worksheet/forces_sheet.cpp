@@ -100,6 +100,7 @@ void add_polygons(Sheets& sheets, const ForcesSheet& sheet) {
              .unit = "N",
              .columns = columns,
              .rows = static_cast<int>(room.height) / 43,
+             .together = lines,
              .direction = m.data.drawing().direction,
              .each_to_its_own = true},
             plans);

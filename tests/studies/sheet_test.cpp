@@ -8,10 +8,12 @@
 #include <map>
 #include <numbers>
 #include <random>
+#include <regex>
 #include <string>
 
 #include "studies/sheet/linkage_drawing.h"
 #include "studies/sheet/table.h"
+#include "studies/sheet/vector_plan.h"
 #include "studies/worksheet/energy_mass_sheet.h"
 #include "studies/worksheet/forces_sheet.h"
 #include "studies/worksheet/reduce_sheet.h"
@@ -267,6 +269,36 @@ TEST(Sheet, PagesAreWhole) {
                  {.paper = a3, .delta = {}, .flywheel = {}, .author = "N. N."})
             .html(),
         a3);
+}
+
+// Of any number of plans the first sheet is full, and each has the larger cell that fewer leave it; tables grow with the paper.
+TEST(Sheet, ThePaperIsUsed) {
+  static const std::regex cell(R"re(<rect class="grid" x="([^"]*)" y="([^"]*)" width="([^"]*)" height="([^"]*)")re");
+  static const std::regex size(R"re(<text[^>]*font-size="([^"]*)"[^>]*data-row)re");
+  for (const char* name : {"A4", "A3"})
+    for (std::size_t count = 1; count < 40; ++count) {
+      Sheets sheets(paper_named(name), {});
+      const VectorPlan plan{.title = "0", .arrows = {{"v", {0, 0}, {1, 0.3 + 0.05 * static_cast<double>(count)}}}};
+      add_plans(sheets, {.what = "plans", .note = "", .scale = "μ", .unit = "m/s"},
+                std::vector<VectorPlan>(count, plan));
+      const std::string html = sheets.html(), first = html.substr(0, html.find("</svg>"));
+      double right = 0, bottom = 0;
+      for (std::sregex_iterator i(first.begin(), first.end(), cell), end; i != end; ++i)
+        right = std::max(right, std::stod((*i)[1]) + std::stod((*i)[3])),
+        bottom = std::max(bottom, std::stod((*i)[2]) + std::stod((*i)[4]));
+      EXPECT_NEAR(right, sheets.room().right(), 0.1) << name << ", " << count;
+      EXPECT_NEAR(bottom, sheets.room().bottom(), 0.1) << name << ", " << count;
+    }
+  for (const auto& [name, least] : {std::pair("A4", 2.89), std::pair("A3", 4.0)}) {
+    Sheets sheets(paper_named(name), {});
+    SheetTable table{.title = "t", .labels = std::vector<std::string>(16, "1")};
+    for (int k = 0; k < 10; ++k) table.columns.push_back({"v", "m/s", std::vector<double>(16, 1.2345)});
+    add_table(sheets, table);
+    const std::string html = sheets.html();
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(html, found, size));
+    EXPECT_GE(std::stod(found[1]), least) << name;
+  }
 }
 
 TEST(Sheet, WhatCannotBeDrawnIsRefusedInWords) {
