@@ -9,6 +9,7 @@
 
 #include "app/terminal.h"
 #include "engine/scene/keys.h"
+#include "studies/question/range.h"
 
 namespace kurbel::app {
 
@@ -17,7 +18,7 @@ Option& Option::required(bool is) {
   return *this;
 }
 Option& Option::values(int least, int most) {
-  option_->expected(least, most);
+  option_->expected(least, most)->allow_extra_args(false);
   return *this;
 }
 Option& Option::repeatable() {
@@ -102,11 +103,30 @@ void refuse_empty_values(CLI::App& app) {
       if (option->get_items_expected_max() > 0) option->check(not_empty);
 }
 
+// The words of the command line, the last one first; a range behind an option of two values is two: "20..200 rpm".
+std::vector<std::string> words_of(const CLI::App& app, int argc, char** argv) {
+  std::vector<std::string> words;
+  bool of_two = false;  // the word before is such an option
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (const auto ends = of_two ? range_ends(word) : std::nullopt)
+      words.insert(words.end(), ends->begin(), ends->end());
+    else
+      words.push_back(word);
+    of_two = false;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+      if (const CLI::Option* option = command->get_option_no_throw(word))
+        of_two = of_two || option->get_items_expected_min() == 2;
+  }
+  std::reverse(words.begin(), words.end());
+  return words;
+}
+
 }  // namespace
 
 bool parse(int argc, char** argv, const std::string& about, const std::string& version,
            const std::vector<Subcommand>& commands) {
-  CLI::App app{about};
+  CLI::App app{about, argv[0]};
   app.require_subcommand(1);
   app.set_version_flag("--version", version);
   for (const Subcommand& each : commands) {
@@ -115,7 +135,7 @@ bool parse(int argc, char** argv, const std::string& about, const std::string& v
   }
   refuse_empty_values(app);
   try {
-    app.parse(argc, argv);
+    app.parse(words_of(app, argc, argv));
     return true;
   } catch (const CLI::Success& success) {
     std::ostringstream help;

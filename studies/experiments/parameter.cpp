@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
@@ -13,6 +12,7 @@
 #include "engine/scene/text.h"
 #include "engine/scene/units.h"
 #include "engine/tables/table_file.h"
+#include "studies/question/range.h"
 
 namespace kurbel {
 namespace {
@@ -20,20 +20,6 @@ namespace {
 constexpr const char* variations =
     "write a range \"main_coupling.stiffness=500..1500 kN*m/rad\" or a list \"flywheel.inertia=200,400,800 kg*m2\"";
 constexpr std::size_t most_values = 1'000'000;
-
-// A number and what stands behind it.
-struct Numbered {
-  double value;
-  std::string_view rest;
-};
-std::optional<Numbered> numbered(std::string_view text) {
-  text = trimmed(text);
-  double value = 0;
-  const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
-  if (error != std::errc{} || !std::isfinite(value)) return {};
-  return Numbered{value, trimmed({end, static_cast<std::size_t>(text.data() + text.size() - end)})};
-}
 
 [[noreturn]] void refuse_variation(const std::string& text, const std::string& why) {
   throw std::invalid_argument(fmt::format("--vary {}: {}; {}", in_quotes(text), why, variations));
@@ -54,10 +40,10 @@ void check_unit(const std::string& text, const std::string& unit) {
   if (!parse_unit(unit, error)) refuse_variation(text, fmt::format("unit {}: {}", in_quotes(unit), error.text));
 }
 
-void read_range(SweptParameter& p, std::string_view value, std::size_t dots) {
-  const auto low = numbered(value.substr(0, dots)), high = numbered(value.substr(dots + 2));
+void read_range(SweptParameter& p, const std::array<std::string, 2>& ends) {
+  const auto low = numbered(ends[0]), high = numbered(ends[1]);
   if (!low || !high) refuse_variation(p.given, "a range needs a number on either side of \"..\"");
-  if (!low->rest.empty() && low->rest != high->rest)
+  if (low->rest != high->rest)
     refuse_variation(p.given, fmt::format("the ends have two units, {} and {}; give one, behind the second end",
                                           in_quotes(low->rest), in_quotes(high->rest)));
   p.unit = high->rest;
@@ -116,9 +102,8 @@ SweptParameter parse_parameter(const std::string& text) {
   const std::string_view value = trimmed(std::string_view(text).substr(equals + 1));
   if (p.path.empty()) refuse_variation(text, "no key");
   if (value.empty()) refuse_variation(text, "no values");
-  const std::size_t dots = value.find("..");
-  if (dots != std::string_view::npos)
-    read_range(p, value, dots);
+  if (const auto ends = range_ends(value))
+    read_range(p, *ends);
   else
     read_list(p, value);
   return p;

@@ -43,9 +43,9 @@ OptionsOf<ModesRequest> options() {
             .what = "an angle"},
            &ModesOptions::angle)
       .add({.name = "range",
-            .doc = "two speeds that the forced response spans, e.g. \"0 rpm\" \"3000 rpm\"",
+            .doc = "speeds that the forced response spans, e.g. \"0..3000 rpm\", or \"0 rpm\" \"3000 rpm\"",
             .example = "300 rpm",
-            .what = "two speeds ≥ 0, the slower first, e.g. \"0 rpm\" \"3000 rpm\"",
+            .what = "two speeds ≥ 0, the slower first, e.g. \"0..3000 rpm\"",
             .domain = not_negative,
             .count = 2},
            OptionForm::several,

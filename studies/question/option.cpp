@@ -12,6 +12,7 @@
 #include "engine/scene/scene.h"
 #include "engine/scene/units.h"
 #include "engine/values/quantity_reader.h"
+#include "studies/question/range.h"
 
 namespace kurbel {
 
@@ -135,6 +136,8 @@ std::vector<std::optional<OptionValues>> values_of(const std::vector<DeclaredOpt
       for (std::string one; std::getline(stream, one, ',');)
         if (!one.empty()) texts.push_back(one);
     }
+    if (texts.size() == 1 && option.text.count == 2)
+      if (const auto ends = range_ends(texts.front())) texts.assign(ends->begin(), ends->end());
     if (texts.empty() && !option.text.required) continue;
     const OptionValues values(option, texts, scene);
     if (texts.empty()) throw std::invalid_argument(fmt::format("{} needs {}", question, values.label()));

@@ -98,6 +98,21 @@ TEST_F(CommandLine, AMeasurementIsLaidOverARunOrRefused) {
   EXPECT_NE(kurbel({"run", text, "--format", "ods"}).err.find("allowed: csv, mat, xlsx"), std::string::npos);
 }
 
+// The ends of a range as one word or as two, before the scene and after it.
+TEST_F(CommandLine, ARangeIsReadAsItIsWritten) {
+  const std::string text = scene("until = \"1 s\"\n");
+  const auto bands = [&](const std::vector<std::string>& words) {
+    const Ended r = kurbel(words);
+    EXPECT_EQ(r.code, 0) << r.err;
+    return r.code == 0 ? nlohmann::json::parse(r.out)["response"] : nlohmann::json();
+  };
+  const nlohmann::json wanted = bands({"modes", text, "--json", "--no-files", "--range", "20 rpm", "200 rpm"});
+  ASSERT_FALSE(wanted.empty());
+  EXPECT_EQ(bands({"modes", "--range", "20..200 rpm", text, "--json", "--no-files"}), wanted);
+  EXPECT_EQ(bands({"modes", text, "--range", "20 rpm .. 200 rpm", "--json", "--no-files"}), wanted);
+  EXPECT_EQ(kurbel({"modes", text, "--range", "20..200"}).code, 2);
+}
+
 // What is set beside a scene does what the same in the file does, is shown, and its faults are placed, however late.
 TEST_F(CommandLine, SettingsBesideASceneAreReadShownAndPlaced) {
   const std::string text = scene("until = \"1 s\"\n");

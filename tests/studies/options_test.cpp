@@ -34,6 +34,22 @@ TEST(Options, AQuantityWithoutAnExampleIsRefusedAtRegistration) {
   EXPECT_EQ(read.speed, 1);
 }
 
+TEST(Options, OfTwoValuesAreARange) {
+  const auto list = [](const std::string& text) {
+    return OptionsOf<Wanted>()
+        .add({.name = "list", .doc = "list", .example = "30 rpm", .what = "two speeds", .count = 2}, &Wanted::list)
+        .read({{"list", text}}, "test", {})
+        .list;
+  };
+  const std::vector<double> wanted = list("20 rpm,200 rpm");
+  for (const char* text :
+       {"20..200 rpm", "20 rpm..200 rpm", "20 .. 200 rpm", "20 rpm … 200 rpm", "20…200rpm", "+20..200 rpm"})
+    EXPECT_EQ(list(text), wanted) << text;
+  EXPECT_EQ(list("2 rad/s..200 rpm")[0], 2);
+  for (const char* text : {"20..200", "20 rpm..200", "..200 rpm", "20 rpm..", "..", "20 rpm"})
+    EXPECT_THROW(list(text), std::invalid_argument) << text;
+}
+
 // With a reader of its own an option may be a quantity, too: any text is read or refused, and never for a missing example.
 TEST(Options, OfEveryQuestionAcceptTheirExamples) {
   const Scene scene = test::scene_file("scenes/crank_press.toml");
