@@ -14,6 +14,7 @@
 #include "engine/orbit/recurrence.h"
 #include "engine/orbit/settling.h"
 #include "engine/return_map/family.h"
+#include "engine/run/recorders.h"
 #include "engine/run/speed_history.h"
 
 namespace kurbel {
@@ -21,11 +22,10 @@ namespace {
 
 constexpr double near_enough = 0.1;     // change per period, over the rated values, below which Newton is tried
 constexpr double enough = 1e-11;        // residual of the map, over the rated values
+constexpr double settling = 0.99;       // of a change from one period to the next: more is no decay
 constexpr double enough_by_run = 1e-8;  // where Newton does not apply
 constexpr double still = 1e-9;          // of the rated values, per radian of the link at rated speed
 constexpr double far_beyond = 30;       // over the rated speed: the machine runs away
-// Events: several periods of a sequence with some hundred events each (reversing joints, rattling gears).
-constexpr std::ptrdiff_t most_remembered = 20000;
 
 class Search {
  public:
@@ -135,9 +135,7 @@ class Search {
     const Pace now = pace();
     if (now.speed > far_beyond) return run_away(now.speed);
     aligned_ = aligned_ || by_time;
-    events_.insert(events_.end(), outcome.events.begin(), outcome.events.end());
-    events_seen_ += outcome.events.size();
-    if (std::ssize(events_) > most_remembered) events_.erase(events_.begin(), events_.end() - most_remembered);
+    events_.add(outcome.events);
     if (has_own_period() && is_settled() && find_own_period()) return;
     if (!round) return wait(now, speeds);
     patience_factor_ = 1;
@@ -163,7 +161,7 @@ class Search {
     if (thousandth == 0)
       return with_holders(
           fmt::format("the machine stays at rest: \"{}\" never reaches 0.1 % of its rated speed", link()));
-    if (const Event* rest = rest_of(events_, {hundredth, thousandth, motion}, m_))
+    if (const Event* rest = rest_of(events_.last, {hundredth, thousandth, motion}, m_))
       return with_holders(fmt::format("the machine comes to rest at {:.4g} s and stays there", rest->t));
     return with_holders(
         fmt::format("the machine slows down to rest: \"{}\" is below 0.1 % of its rated speed from {:.4g} s on", link(),
@@ -205,7 +203,7 @@ class Search {
 
   // A subharmonic motion: the state is that of several periods before, and not that of one before; these are then one period.
   bool repeats_after_several() {
-    constexpr std::size_t most = 6;
+    constexpr std::size_t most = most_cycles_of_a_period;
     constexpr double as_before = 1e-4;  // of the change over one period
     if (ends_.size() > most) ends_.erase(ends_.begin());
     if (settled_periods_ < next_look_back_ || out_.still_changes < as_before) return false;
@@ -224,35 +222,39 @@ class Search {
   std::shared_ptr<ReturnMap> new_map() const { return std::make_shared<ReturnMap>(shared_, map_options(options_)); }
 
   // If Newton's method does not apply: the run is close enough.
-  void rest_on_run(const std::shared_ptr<ReturnMap>& map) {
+  bool rest_on_run(const std::shared_ptr<ReturnMap>& map) {
     const ReturnMap::Image way = map->approach_from(state_);
-    if (way.end != ReturnMap::End::returned) return spend(*map);
-    SteadyPoint point = find_by_periods(*map, way.z, 10 * enough_by_run);
-    if (!point.found) return spend(*map);
-    if (point.vibrates()) point.to_come += uncertainty_of_member(*map);
+    SteadyPoint point;
+    if (way.end == ReturnMap::End::returned) point = find_by_periods(*map, way.z, 10 * enough_by_run);
+    settles_ = m_.scene.sequence.repeat && point.periods > 1 && way.z.size() > 0 &&
+               point.residual < settling * (point.first - way.z).cwiseAbs().maxCoeff();
+    if (point.found && point.vibrates()) point.to_come += uncertainty_of_member(*map);
     spend(*map);
+    if (!point.found || (settles_ && point.residual > 0.1 * enough_by_run)) return false;
     accept(map, point);
     out_.polished = out_.stable = false;
+    return true;
   }
 
   // Continues to the middle of the widest gap between the events of the last period: a period must not begin with an event.
   bool go_where_least_happens(double last, double period) {
-    const std::optional<double> quiet = middle_of_widest_gap(events_, last, period);
+    const std::optional<double> quiet = middle_of_widest_gap(events_.last, last, period);
     if (!quiet) return true;
     const RunOptions run = on_until(*quiet + period * std::ceil((state_.t - *quiet) / period + 1e-6));
     equations_.bind(state_.modes);
     const RunOutcome outcome = integrate(equations_, run, {});
     if (outcome.complete) state_ = {outcome.t, outcome.state, equations_.modes()};
+    events_.add(outcome.events);
     return outcome.complete;
   }
 
   // The same event recurs after the same time with the same state, with up to a number of its kind between. For a sequence
   // the same command of the same step.
   bool find_own_period() {
-    if (events_.size() < 4 || events_seen_ == looked_at_) return false;
-    looked_at_ = events_seen_;
+    if (events_.last.size() < 4 || events_.seen == looked_at_) return false;
+    looked_at_ = events_.seen;
     const bool sequence = m_.scene.sequence.repeat;
-    return comes_again(times_of_last_kind(events_, m_),
+    return comes_again(times_of_last_kind(events_.last, m_),
                        sequence ? "the operating sequence repeats" : "self-excited vibration, no law sets this period");
   }
 
@@ -272,29 +274,35 @@ class Search {
 
   // Whether the motion is periodic, by the times of equal events, latest first, with up to a number of its kind between.
   bool comes_again(const std::vector<double>& times, const std::string& why) {
-    constexpr std::size_t most_between = 8;
-    constexpr double same_time = 1e-6, settled_time = 1e-10, settling = 0.9;
-    for (std::size_t k = 1; k <= most_between && 2 * k < times.size(); ++k) {
+    constexpr double same_time = 1e-6, settled_time = 1e-10, fast = 0.9;
+    for (std::size_t k = 1; k <= std::size_t{most_cycles_of_a_period} && 2 * k < times.size(); ++k) {
       const double period = times[0] - times[k], before = times[k] - times[2 * k];
       const double change = std::abs(period - before);
       if (!(period > 0) || change > same_time * period) continue;
+      slow_ = true;
       // While it still converges this fast, more periods are computed before the period is accepted.
-      if (change > settled_time * period && change < settling * std::exchange(period_changes_, change)) return false;
+      if (change > settled_time * period && change < fast * std::exchange(period_changes_, change)) return false;
       if (period_.by_time && std::abs(std::remainder(period, period_.time)) < same_time * period_.time) continue;
       if (!go_where_least_happens(times[0], period)) return false;
-      const double exact = events_.empty() ? by_whole_state(period) : period;
-      const auto map = std::make_shared<ReturnMap>(shared_, map_options(options_), exact);
-      period_.by_time = true;
-      const double of_laws = std::exchange(period_.time, exact);
-      rest_on_run(map);
-      if (done_) {
-        out_.words = fmt::format("the motion repeats after {:.6g} s: {}", exact, why);
-        return true;
-      }
-      period_.time = of_laws;
-      period_.by_time = of_laws > 0;
+      const double exact = events_.last.empty() ? by_whole_state(period) : period;
+      const bool repeats = repeats_after(exact, why);
+      if (!repeats && settles_) return false;
+      if (!repeats) continue;
+      // What was still settling may be accepted as several periods first: from where they led to, the fewest count.
+      std::size_t n = k;
+      while (n > 1 && !(k % n == 0 && repeats_after(exact / static_cast<double>(n), why))) --n;
+      return true;
     }
     return false;
+  }
+
+  // Whether the whole state does, from where the run is; if not, what was found before is kept.
+  bool repeats_after(double time, const std::string& why) {
+    const Periodicity laws = period_;
+    period_.by_time = true, period_.time = time;
+    if (!rest_on_run(std::make_shared<ReturnMap>(shared_, map_options(options_), time))) return period_ = laws, false;
+    out_.words = fmt::format("the motion repeats after {:.6g} s: {}", time, why);
+    return true;
   }
 
   // The period by the rotation of the link, to the run's tolerance, corrected by the lag of the whole state.
@@ -355,6 +363,7 @@ class Search {
   }
 
   void accept(const std::shared_ptr<ReturnMap>& map, const SteadyPoint& point) {
+    if (out_.map) spend(*out_.map);  // several periods, before
     map_ = map;
     out_.map = map;
     out_.point = point;
@@ -379,7 +388,7 @@ class Search {
 
   void drift() {
     const std::string where = fmt::format("after {} cycles, at {:.4g} s, ", out_.cycles, state_.t);
-    if (settled_periods_ == 0 && is_settled())
+    if (settled_periods_ == 0 && is_settled() && !m_.scene.sequence.repeat)
       return end(
           Orbit::Kind::drifting,
           where + fmt::format("\"{}\" has neither completed a cycle nor come to rest: it moves to and fro", link()));
@@ -418,8 +427,8 @@ class Search {
   State state_;
   Orbit out_;
   bool done_ = false, aligned_ = false, angle_changes_most_ = false, found_unstable_ = false;
-  bool slow_ = false;                                       // a period has changed little
-  bool repeated_ = false;                                   // the run did, at the last trial
+  bool slow_ = false, settles_ = false;  // a period has changed little; what did not repeat came nearer to it
+  bool repeated_ = false;                // the run did, at the last trial
   double patience_factor_ = 1, period_changes_ = HUGE_VAL;  // change of the own period at the last check [s]
   int run_periods_ = 0, settled_periods_ = 0, next_trial_ = 1, next_look_back_ = 16;
   std::vector<State> ends_;  // of the last settled periods before this one
@@ -427,8 +436,8 @@ class Search {
   LastMotion last_motion_;
   std::string why_not_, changes_most_;
   std::vector<double> speeds_;  // fastest shaft at the ends of settled periods, over its rated speed
-  std::vector<Event> events_;   // the last ones
-  std::size_t events_seen_ = 0, looked_at_ = 0;
+  RecentEvents events_;
+  std::size_t looked_at_ = 0;  // so many events
 };
 
 }  // namespace

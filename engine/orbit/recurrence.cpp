@@ -14,6 +14,14 @@ std::size_t commands_in_a_cycle(const Model& m) {
 
 }  // namespace
 
+void RecentEvents::add(const EventLog& events) {
+  constexpr std::ptrdiff_t most =
+      20000;  // several periods of a sequence with some hundred each: joints, rattling gears
+  last.insert(last.end(), events.begin(), events.end());
+  seen += events.size();
+  if (std::ssize(last) > most) last.erase(last.begin(), last.end() - most);
+}
+
 std::vector<double> times_of_last_kind(const std::vector<Event>& events, const Model& m) {
   std::vector<double> times;
   const std::size_t cycle = commands_in_a_cycle(m);

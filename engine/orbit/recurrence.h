@@ -9,6 +9,13 @@
 
 namespace kurbel {
 
+// The last events of a run, and how many there were.
+struct RecentEvents {
+  EventLog last = {};
+  std::size_t seen = 0;
+  void add(const EventLog& events);
+};
+
 // Times [s], latest first, of all events of the last one's kind; of a sequence that repeats, those of the last command of each
 // cycle.
 std::vector<double> times_of_last_kind(const std::vector<Event>& events, const Model& m);

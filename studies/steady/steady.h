@@ -26,7 +26,7 @@ struct SteadyOptions {
   // Quantity that holds this speed, COMPONENT.KEY: it is scaled; empty: a torque added to the drive.
   std::string hold_by = {};
   Moment at = {};            // state of the machine at that moment; default: after all switching
-  int periods = 1;           // cycles after which the motion repeats; up to six times as many where it needs them
+  int periods = 1;           // cycles after which the motion repeats; up to twelve times as many where it needs them
   bool traces = false;       // for plots
   bool start_search = true;  // also the start from rest and the gearbox ratio of the fastest start
   bool every_order = false;  // figures of all orders, not only of the significant ones

@@ -1,6 +1,7 @@
 // Steady cycles and operating points as a user asks for them: closed forms, families, stalls, runaways.
 #include "studies/steady/steady.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,6 +13,7 @@
 #include "studies/report/render.h"
 #include "tests/published/published.h"
 #include "tests/support/conclusions.h"
+#include "tests/support/files.h"
 
 namespace kurbel::test::steady_test {
 namespace {
@@ -337,6 +339,18 @@ TEST(Steady, SequenceThatRepeatsGivesThePeriod) {
   EXPECT_NEAR(c.cycle_time, 1, 1e-9);
   for (const Figure& f : c.figures)
     EXPECT_LT(f.error.value_or(HUGE_VAL), 1e-6 * std::max(f.scale, std::abs(f.value))) << f.name;
+}
+
+// A heavy press that strikes every third stroke settles slowly: its period is three turns, whatever it is accepted by.
+TEST(Steady, SequenceOfAHeavyPressHasTheFewestStrokesAsItsPeriod) {
+  for (const char* inertia : {"1.5 kg*m2", "6 kg*m2"}) {
+    const std::string text = test::text_of(test::source_path("tests/agreement/press_every_third.toml"));
+    const SteadyStudy study = steady(scene_from(with(text, "\"1.5 kg*m2\"", fmt::format("\"{}\"", inertia))),
+                                     {Effects{}}, {.start_search = false});
+    ASSERT_TRUE(study.complete) << study.diagnosis;
+    const SteadyCycle& c = study.cycles[0];
+    EXPECT_NEAR(c.cycle_time * value_of(c, "mean_speed.crank"), 3 * 2 * pi, 1e-6) << inertia;
+  }
 }
 
 // By the clock: 2 s at full voltage, 3 s at a fifth; ω_high = 100 + (ω_low − 100) e^{−2/10}, ω_low = 20 + (ω_high − 20) e^{−3/10}.
