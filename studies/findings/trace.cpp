@@ -12,6 +12,7 @@ namespace kurbel {
 namespace {
 
 constexpr int samples_per_step = 6;
+constexpr double same_end = 1e-3;  // of a turn: runs of other tolerances end it elsewhere
 constexpr std::size_t full = 16000, thinned = 8000, rows_of_block = 128;
 
 void push(Trace& trace, double x, double y) {
@@ -137,14 +138,21 @@ void TraceRecorder::hand_over() {
   times_.clear(), angles_.clear();
 }
 
-std::shared_ptr<const Traces> TraceRecorder::traces(int cycles) {
+std::shared_ptr<const Traces> TraceRecorder::traces(int cycles, double until) {
   hand_over();
   std::deque<CycleTraces>& last = traces_->last_cycles;
-  const std::size_t n = at(cycles);
+  const auto is_later = [until](const CycleTraces& c) { return c.end - same_end * (c.end - c.begin) > until; };
+  while (!last.empty() && !is_later(last.front()) && is_later(last.back())) last.pop_back();
+  const std::ptrdiff_t n = cycles, count = std::ssize(last);
   const auto apart = [](const CycleTraces& a, const CycleTraces& b) { return a.end != b.begin; };
-  const bool joins = n > 1 && last.size() >= n &&
-                     std::adjacent_find(last.end() - static_cast<std::ptrdiff_t>(n), last.end(), apart) == last.end();
-  last.erase(last.begin(), last.end() - static_cast<std::ptrdiff_t>(joins ? n : std::min<std::size_t>(2, last.size())));
+  // The turns of a period follow each other: where the last do not, those before them.
+  std::ptrdiff_t begin = count - n;
+  while (begin >= 0 &&
+         std::adjacent_find(last.begin() + begin, last.begin() + begin + n, apart) != last.begin() + begin + n)
+    begin -= n;
+  const bool joins = n > 1 && begin >= 0;
+  if (joins) last.erase(last.begin() + begin + n, last.end());
+  last.erase(last.begin(), last.end() - (joins ? n : std::min<std::ptrdiff_t>(2, count)));
   for (; joins && last.size() > 1; last.erase(last.begin() + 1)) {
     const double turned = model_->cycle * last[0].cycles;
     last[0].end = last[1].end, ++last[0].cycles;

@@ -1,6 +1,7 @@
 // trace.h — an observer for plots: every channel along the steps of a run, in bounded memory, with every peak kept.
 #pragma once
 
+#include <cmath>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -52,8 +53,8 @@ class TraceRecorder final : public Observer {
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
 
-  // After the run: what was recorded until now; the last so many cycles as one.
-  std::shared_ptr<const Traces> traces(int cycles = 1);
+  // After the run: what was recorded until now; the last so many cycles in a row that end by `until` [s] as one.
+  std::shared_ptr<const Traces> traces(int cycles = 1, double until = HUGE_VAL);
 
  private:
   void look(double t, std::span<const double> y, Equations& equations);  // now_ and angle_

@@ -87,9 +87,7 @@ std::string link_of(const Result& r) {
 // Over the angle there are no periods of time, and turns that do not follow each other are not joined.
 std::string cycle_of_traces(const Result& r) {
   const int joined = r.traces->last_cycles.empty() ? 1 : r.traces->last_cycles.back().cycles;
-  return joined == 1                                         ? "cycle"
-         : r.periods.time == 0 && joined == r.periods.cycles ? cycle_of_figures(r)
-                                                             : fmt::format("period of {} cycles", joined);
+  return joined == 1 ? "cycle" : cycle_of_figures(r);
 }
 
 // Of the reduction link, in the last whole cycle of each model.

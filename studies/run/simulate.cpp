@@ -331,15 +331,11 @@ class Simulation {
     if (!model.scene.figures.empty())
       observers.push_back((run->asked = std::make_unique<AskedRecorder>(model, &run->cycles, &run->by_time)).get());
     // Plots need only the first tolerance, and the timed runs remain without them.
-    if (options_.traces && !result_.traces) {
-      run->traces = std::make_unique<TraceRecorder>(*model_);
-      observers.push_back(run->traces.get());
-    }
+    if (options_.traces && !traces_) observers.push_back((traces_ = std::make_unique<TraceRecorder>(*model_)).get());
     run->outcome = integrate(equations, options, observers);
     result_.cpu_total += run->outcome.statistics.cpu_seconds;
     result_.flow_calls += run->outcome.statistics.stepper.flow_calls;
     if (!run->outcome.state.empty()) collect_figures(model, equations, tolerance, *run);
-    if (run->traces) result_.traces = run->traces->traces(run->periods.time > 0 ? 1 : run->periods.cycles);
     const RunStatistics& s = run->outcome.statistics;
     log(fmt::format("  {} with tolerance {:.0e}: {} steps, {} rejected, {} events, {:.3g} ms{}", s.method, tolerance,
                     s.stepper.steps, s.stepper.rejected, s.events, 1e3 * s.cpu_seconds,
@@ -390,7 +386,8 @@ class Simulation {
     result_.tolerance = tolerance;
     result_.figures = std::move(run.figures);
     result_.events = run.outcome.events;
-    result_.periods = run.periods;
+    const Periods& periods = result_.periods = run.periods;
+    if (traces_) result_.traces = traces_->traces(periods.time > 0 ? 1 : periods.cycles, periods.judged_until);
     result_.cycles = (run.periods.time > 0 ? run.by_time : run.cycles).cycles();
     result_.statistics = run.outcome.statistics;
     result_.statistics.limits = limits_of(run.outcome, equations_);
@@ -427,6 +424,7 @@ class Simulation {
   std::optional<Equations> equations_elsewhere_;
   std::optional<Checkpoint> checkpoint_;  // where it goes on from
   std::shared_ptr<WorkTables> work_tables_;
+  std::unique_ptr<TraceRecorder> traces_;              // of the first run
   std::unique_ptr<OneRun> fine_, coarse_, elsewhere_;  // the run whose figures count, and its witnesses
   std::unique_ptr<OneRun> coarse_elsewhere_;           // the independent one before it, with a larger tolerance
   double tolerance_ = 0, elsewhere_tolerance_ = 0, weight_of_coarse_ = 1;  // measured_errors.h
