@@ -351,14 +351,15 @@ Claims share_claims(const std::vector<LimitCount>& limits, std::size_t failed, s
     if (const auto decided = static_cast<double>(c.decided()); decided > 0) {
       const bool by_chance = std::isfinite(c.interval.low);  // a grid has no interval
       add(claims,
-          claimed_aside(Predicate::share_holds,
-                        limit_in_words(c.limit) +
-                            (by_chance ? fmt::format(" holds in {} % of such machines",
-                                                     range_text(100 * c.interval.low, 100 * c.interval.high, 3))
-                                       : fmt::format(" holds in {} of {} machines", c.holds, c.decided())),
-                        {},
-                        {.value = static_cast<double>(c.holds) / decided,
-                         .error = by_chance ? std::optional(0.5 * (c.interval.high - c.interval.low)) : std::nullopt}));
+          claimed_aside(
+              Predicate::share_holds,
+              limit_in_words(c.limit) + (by_chance ? fmt::format(" holds in {} % of such machines",
+                                                                 range_text(100 * c.interval.low, 100 * c.interval.high,
+                                                                            c.interval.high > 0.9995 ? 4 : 3))
+                                                   : fmt::format(" holds in {} of {} machines", c.holds, c.decided())),
+              {},
+              {.value = static_cast<double>(c.holds) / decided,
+               .error = by_chance ? std::optional(0.5 * (c.interval.high - c.interval.low)) : std::nullopt}));
     }
   return claims;
 }

@@ -271,8 +271,9 @@ class UncertaintyWork {
     std::string& text = study_.conclusion;
     for (const LimitCount& c : study_.limits)
       text += fmt::format("{}{} holds in {} % of such machines ({} of {} drawn{})", text.empty() ? "" : "; ",
-                          limit_in_words(c.limit), range_text(100 * c.interval.low, 100 * c.interval.high, 3), c.holds,
-                          study_.drawn, c.undecided ? fmt::format(", {} undecided", c.undecided) : "");
+                          limit_in_words(c.limit),
+                          range_text(100 * c.interval.low, 100 * c.interval.high, c.interval.high > 0.9995 ? 4 : 3),
+                          c.holds, study_.drawn, c.undecided ? fmt::format(", {} undecided", c.undecided) : "");
     const auto figure = std::find_if(study_.figures.begin(), study_.figures.end(), [&](const FigureUncertainty& f) {
       return f.by_gradients.value > 0 && (limits_.empty() || f.figure.name == figures_[limits_.front().figure].name);
     });
