@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mechanisms/deforming/deforming_mechanism.h"
+#include "mechanisms/loads/load_acts.h"
 
 namespace kurbel {
 namespace {
@@ -78,7 +79,8 @@ GuardLabel DeformingMechanismPool::label(int guard, const Instant& now) const {
     SliderState<double> s{};
     s.mode = now.mode[p.at.mode + 1 + static_cast<int>(owner.index)];
     const SliderLoad& load = p.mechanism.loads[owner.index];
-    return {load.name, load.piece_name(s), load.piece_kind()};
+    const bool on = !now.command || (now.active[p.at.id] && acts(p.at, now, owner.index));
+    return {load.name, on ? load.piece_name(s) : std::string(), load.piece_kind()};  // off, it changes unlisted
   }
   const SliderCrankDynamics::ContactPlace& place = p.dynamics->contacts()[owner.index];
   static const char* const corners[] = {"extended upper corner", "folded upper corner", "extended lower corner",

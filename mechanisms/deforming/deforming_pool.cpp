@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mechanisms/deforming/deforming_mechanism.h"
+#include "mechanisms/loads/load_acts.h"
 
 namespace kurbel {
 namespace {
@@ -66,9 +67,7 @@ template SliderState<double> DeformingMechanismPool::slider(const Placed& p, con
 template <class T>
 T DeformingMechanismPool::force_of(const Placed& p, const Instant& now, const SliderCrankMotion<T>& m,
                                    std::size_t load) const {
-  // Switched off by an operating sequence, together with all loads or separately (as in mechanism_pool.cpp).
-  if (!now.active[p.at.id]) return T(0.0);
-  if (p.at.command >= 0 && !(now.command[p.at.command + 1 + static_cast<int>(load)] > 0.5)) return T(0.0);
+  if (!now.active[p.at.id] || !acts(p.at, now, load)) return T(0.0);
   const SliderLoad& law = p.mechanism.loads[load];
   SliderState<T> s = slider(p, now, m, load);
   if (s.travel != creeps) return law.value(s);

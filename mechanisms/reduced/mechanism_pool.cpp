@@ -1,6 +1,7 @@
 // mechanism_pool.cpp — gathers the crank's motion, applies the reduced functions, scatters torque and inertia.
 #include <stdexcept>
 
+#include "mechanisms/loads/load_acts.h"
 #include "mechanisms/reduced/mechanism.h"
 
 namespace kurbel {
@@ -11,11 +12,6 @@ const char* name_of_reversal(const Mechanism& m, bool now_growing) {
   if (m.travel.reversals.size() > 2 || !m.reduced->cycle().change_points().empty()) return "output reverses";
   if (m.rocks()) return now_growing ? "least angle" : "greatest angle";
   return now_growing ? "folded dead centre" : "extended dead centre";
-}
-
-// A sequence that sets a mechanism or its loads has a command for it, followed by one for each load.
-bool acts(const ShaftPorts& at, const Instant& now, std::size_t load) {
-  return at.command < 0 || now.command[at.command + 1 + static_cast<int>(load)] > 0.5;
 }
 
 }  // namespace
@@ -233,7 +229,8 @@ GuardLabel MechanismPool::label(int guard, const Instant& now) const {
   const SliderLoad& load = p.mechanism.loads[static_cast<std::size_t>(owner.load)];
   SliderState<double> s{};
   s.mode = now.mode[p.at.mode + 1 + owner.load];
-  return {load.name, load.piece_name(s), load.piece_kind()};
+  const bool on = !now.command || (now.active[p.at.id] && acts(p.at, now, static_cast<std::size_t>(owner.load)));
+  return {load.name, on ? load.piece_name(s) : std::string(), load.piece_kind()};  // off, it changes unlisted
 }
 
 void MechanismPool::set_timed_modes(double /*t*/, int* /*mode*/, char* active) const {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "tests/published/published.h"
@@ -89,6 +90,45 @@ TEST_P(CompressorDiagram, OpensItsValvesWhereThePressuresMeet) {
   }
   EXPECT_GE(suctions, 4);  // 4.77 turns
   EXPECT_GE(deliveries, 4);
+}
+
+// Valves held open have no events: those listed lie within the times that the load is on, of every form of the crank.
+TEST(Compressor, HasNoEventsOfItsValvesWhileItsLoadIsOff) {
+  Scene scene = test::scene_file("scenes/unloaded_compressor.toml");
+  for (const bool deforms : {false, true}) {
+    if (deforms)
+      scene = test::scene_from(R"(
+line = ["drive", "compressor"]
+drive = { kind = "prescribed speed", speed = "20 rad/s" }
+[compressor]
+kind = "slider-crank"
+radius = "50 mm"
+rod = "200 mm"
+rod_mass = "0.5 kg"
+rod_com = "100 mm"
+rod_inertia = "0.002 kg*m2"
+slider_mass = "2 kg"
+rod_flexibility = { modulus = "200 GPa", height = "20 mm", width = "16 mm", modes = 1, damping_ratio = 0.05 }
+load = { kind = "compressor", bore = "100 mm", suction_pressure = "1 bar", delivery_pressure = "5 bar", clearance = 0.06, working_end = "extended" }
+[sequence]
+steps = [{ at = "0 s", set = "compressor", to = 0 }, { at = "1 s", set = "compressor" }, { at = "2 s", set = "compressor", to = 0 }]
+[effects]
+flexible_rod = true
+[run]
+until = "3 s"
+)");
+    const Result result = run(scene, false);
+    ASSERT_TRUE(result.complete) << result.diagnosis;
+    int valves = 0;
+    std::map<std::string, bool> off;
+    for (const Event& event : result.events) {
+      if (event.kind == EventKind::command) off[event.component] = event.value == 0;
+      if (event.what.find("valve opens") == std::string::npos) continue;
+      ++valves;
+      EXPECT_FALSE(off[event.component] || off["compressor"]) << event.component << " at " << event.t;
+    }
+    EXPECT_GT(valves, 5);
+  }
 }
 
 // The force falls from delivery to suction pressure without a jump; it never leaves their range.
