@@ -8,6 +8,7 @@
 namespace kurbel {
 namespace {
 
+constexpr double closed = 1 - 1e-6;  // a command may come to 1 as exp does: never in full
 constexpr double least_held = 1e-6;  // of the capacity: what passes less than that on has no reserve worth a figure
 
 // A joint that locks, and the command that closes it; −1: it is always closed.
@@ -43,8 +44,8 @@ std::vector<ExtremeOf> held_torques_of(const Model& model) {
                       .scale = h.scale,
                       .value =
                           [h](const Snapshot& s) {
-                            const bool closed = h.command < 0 || s.now.command[h.command] >= 1;
-                            return closed && s.now.slip[h.elastic] == 0 ? s.joint_torque[h.joint] : 0.0;
+                            const bool holds = h.command < 0 || s.now.command[h.command] >= closed;
+                            return holds && s.now.slip[h.elastic] == 0 ? s.joint_torque[h.joint] : 0.0;
                           },
                       .rate = {}});
   return wanted;

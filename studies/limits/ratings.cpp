@@ -124,10 +124,11 @@ class Rater {
       out_.push_back(not_assessed(component_, requirement, limit, unit, load_case::start,
                                   "the run does not begin at rest; kurbel modes judges a start from rest"));
   }
-  // Of what one load case alone, the steady motion, does not contain.
-  void leave_to_run(const char* requirement, double limit, const char* unit, const char* load_case = load_case::run) {
-    if (!only_case_.empty())
-      out_.push_back(not_assessed(component_, requirement, limit, unit, load_case, "kurbel run judges it"));
+  // Of what one load case alone, the steady motion, does not contain; nor this run, for the reason that is given.
+  void leave_to_run(const char* requirement, double limit, const char* unit, const char* not_in_run = nullptr,
+                    const char* load_case = load_case::run) {
+    const char* const why = only_case_.empty() ? not_in_run : "kurbel run judges it";
+    if (why) out_.push_back(not_assessed(component_, requirement, limit, unit, load_case, why));
   }
   Remedy remedy(const char* key, double value, const char* unit) const {
     return {component_ + "." + key, enough(value), unit};
@@ -161,8 +162,8 @@ class Rater {
   void holding(const Claim* slips) {  // what a clutch or limiter has transmitted while it was closed and did not slip
     constexpr const char* holds = "holding torque: |τ| ≤ M_s while it is closed";
     if (slips) return gives_way(holds, capacity(), *slips);
-    leave_to_run(holds, capacity(), "N*m");
     const Figure *held = found("held_torque." + component_), *reserve = found("torque_reserve." + component_);
+    leave_to_run(holds, capacity(), "N*m", held && reserve ? nullptr : "fully closed it holds no torque in this run");
     if (held && reserve) add(holds, abs(*held), held->at, capacity(), "N*m", [](double) { return Mend{}; });
   }
   void gives_way(const char* requirement, double limit, const Claim& slips) {
@@ -188,8 +189,8 @@ class Rater {
     const Figure *peak = found("peak_torque." + component_), *strand = found("strand_force." + component_);
     constexpr const char *tension = "strand force: F₀ + |τ|/(2 r₁) ≤ F_allowable",
                          *reserve = "reserve against slip: S |τ| ≤ M";
-    if (b.tension) leave_to_run(tension, *b.tension, "N", load_case::start);
-    if (b.reserve) leave_to_run(reserve, b.limit, "N*m", load_case::start);
+    if (b.tension) leave_to_run(tension, *b.tension, "N", nullptr, load_case::start);
+    if (b.reserve) leave_to_run(reserve, b.limit, "N*m", nullptr, load_case::start);
     if (b.tension && strand)
       add(tension, abs(*strand), peak ? peak->at : strand->at, *b.tension, "N", [&](double) {
         const double left = *b.tension - b.pretension, pull = strand->value + strand->error.value_or(0) - b.pretension;

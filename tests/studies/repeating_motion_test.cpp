@@ -360,6 +360,29 @@ run = {{ until = "3 s" }}
   EXPECT_EQ(holds.limit, 80);
 }
 
+// Slipping all the time, or idle: it holds nothing, and that is said.
+TEST(Ratings, AClutchThatHoldsNothingIsNotAssessed) {
+  for (const char* sequence :
+       {"{ at = \"0 s\", set = \"clutch\", to = 0 }", "{ at = \"0 s\", set = \"clutch\", to = 0.2 }"}) {
+    const Result r = run(fmt::format(R"(
+line = ["motor", "clutch", "rotor"]
+motor = {{ kind = "dc shunt motor", stall_torque = "100 N*m", no_load_speed = "100 rad/s", inertia = "1 kg*m2" }}
+clutch = {{ kind = "clutch", torque = "80 N*m", allowable_heat = "1 MJ" }}
+rotor = {{ kind = "flywheel", inertia = "50 kg*m2" }}
+sequence = {{ steps = [{}] }}
+run = {{ until = "1 s" }}
+)",
+                                     sequence));
+    const std::vector<Verdict> verdicts = judge_ratings(r);
+    const auto held = std::find_if(verdicts.begin(), verdicts.end(), [](const Verdict& v) {
+      return std::string(v.requirement).starts_with("holding torque");
+    });
+    ASSERT_NE(held, verdicts.end());
+    EXPECT_EQ(held->state(), Compliance::not_assessed);
+    EXPECT_EQ(held->note, "fully closed it holds no torque in this run");
+  }
+}
+
 // --- events of one kind ---
 
 // All of them are in summary.json; on the page one row says how many there are of a kind.
