@@ -43,9 +43,9 @@ Question forces_question() {
                &ForcesOptions::speed)
           .add({.name = "range",
                 .doc = "two angles, for a crank that rocks: over that part of its arc (default: 95 % of it), e.g. "
-                       "\"-45 deg\" \"45 deg\"",
+                       "\"-45..45 deg\"",
                 .example = "45 deg",
-                .what = "two angles, the lesser first, e.g. \"-45 deg\" \"45 deg\"",
+                .what = "two angles, the lesser first, e.g. \"-45..45 deg\"",
                 .count = 2},
                OptionForm::several,
                [](ForcesRequest& asked, const OptionValues& given) {

@@ -47,9 +47,9 @@ OptionsOf<ReduceRequest> options() {
            std::vector{std::pair("classical", CycleBasis::classical), std::pair("steady", CycleBasis::steady)})
       .add({.name = "range",
             .doc = "two angles, for a crank that rocks: over that part of its arc (default: 95 % of it), e.g. "
-                   "\"-45 deg\" \"45 deg\"",
+                   "\"-45..45 deg\"",
             .example = "45 deg",
-            .what = "two angles, the lesser first, e.g. \"-45 deg\" \"45 deg\"",
+            .what = "two angles, the lesser first, e.g. \"-45..45 deg\"",
             .count = 2},
            OptionForm::several,
            [](ReduceRequest& asked, const OptionValues& given) {
