@@ -18,8 +18,8 @@ namespace kurbel {
 struct OrbitOptions {
   double tolerance = 1e-12;  // of the return map; that of the run is at least 1e-9
   std::string method = "auto";
-  int cycles = 1;          // cycles of the machine in one period; up to twelve times as many where the motion needs them
-  double budget = 300;     // of processor time, for one integration [s]
+  int cycles = 1;       // cycles of the machine in one period; up to twelve times as many where the motion needs them
+  double budget = 300;  // of processor time, for one integration [s]
   int most_periods = 600;  // periods; the default: four times as many once a period has changed by less than 1e-3
   const std::atomic<bool>* interrupted = nullptr;
   std::function<void(const std::string& what, double fraction)> progress = {};

@@ -91,7 +91,8 @@ Question steady_question() {
                &SteadyOptions::hold_by)
           .add(
               {.name = "periods",
-               .doc = "cycles after which the motion repeats; up to twelve times as many where it needs them (default: 1)",
+               .doc =
+                   "cycles after which the motion repeats; up to twelve times as many where it needs them (default: 1)",
                .domain = {.low = 1, .high = 64}},
               &SteadyOptions::periods)
           .add(measurement_options(), &SteadyRequest::measured)

@@ -39,7 +39,7 @@ struct OneRun {
   std::unique_ptr<FlywheelFalls> falls;
   std::unique_ptr<MotorCurrents> currents;
   std::unique_ptr<DataRangeRecorder> ranges;  // of tables
-  std::unique_ptr<AskedRecorder> asked;  // null: nothing
+  std::unique_ptr<AskedRecorder> asked;       // null: nothing
   std::vector<Figure> figures;
   std::vector<Figure> last_state;  // of all components: angle, speed, and those of the driven shaft; without names
   Periods periods;
