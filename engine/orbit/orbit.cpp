@@ -159,8 +159,7 @@ class Search {
     const auto [hundredth, thousandth, motion] = last_motion_.times();
     if (motion == 0) return with_holders("the machine stands from its start on");
     if (thousandth == 0)
-      return with_holders(
-          fmt::format("the machine stays at rest: \"{}\" never reaches 0.1 % of its rated speed", link()));
+      return with_holders("the machine stays at rest: \"" + link() + "\" never reaches 0.1 % of its rated speed");
     if (const Event* rest = rest_of(events_.last, {hundredth, thousandth, motion}, m_))
       return with_holders(fmt::format("the machine comes to rest at {:.4g} s and stays there", rest->t));
     return with_holders(
@@ -282,7 +281,7 @@ class Search {
       slow_ = true;
       // While it still converges this fast, more periods are computed before the period is accepted.
       if (change > settled_time * period && change < fast * std::exchange(period_changes_, change)) return false;
-      if (period_.by_time && std::abs(std::remainder(period, period_.time)) < same_time * period_.time) continue;
+      if (period_.by_time && is_whole(period, period_.time) != m_.scene.sequence.repeats_freely()) continue;
       if (!go_where_least_happens(times[0], period)) return false;
       const double exact = events_.last.empty() ? by_whole_state(period) : period;
       const bool repeats = repeats_after(exact, why);
@@ -328,11 +327,9 @@ class Search {
     SteadyPoint point = find_steady(*map, way.z, enough);
     spend(*map);
     if (point.end == ReturnMap::End::interrupted) return end(Orbit::Kind::interrupted, "interrupted");
-    if (!point.found) {
-      why_not_ = point.why;
+    if (!point.found) why_not_ = point.why;
+    if (!point.found || !was_on_its_way(point) || sequence_goes_on(*map, point.z) || !keeps_its_member(*map, point))
       return;
-    }
-    if (!was_on_its_way(point) || sequence_goes_on(*map, point.z) || !keeps_its_member(*map, point)) return;
     accept(map, point);
   }
 

@@ -2,6 +2,7 @@
 #include "engine/orbit/recurrence.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace kurbel {
 namespace {
@@ -32,6 +33,8 @@ std::vector<double> times_of_last_kind(const std::vector<Event>& events, const M
       times.push_back(e->t);
   return times;
 }
+
+bool is_whole(double time, double period) { return std::abs(std::remainder(time, period)) < 1e-6 * period; }
 
 std::optional<double> middle_of_widest_gap(const std::vector<Event>& events, double last, double period) {
   std::vector<double> times;

@@ -346,6 +346,22 @@ TEST(Orbit, WhatTheRunAloneCameToIsTheFartherOffTheSlowerItSettles) {
 
 // However many events a round holds: a brake of 5 N·m grips 150 times a round of 3.1 s, 10 ms on, 10 ms off, and 0.1 s
 // off at its end. A DC motor behind it is linear, so its periodic speed is a sum of exponentials.
+// A sequence that takes 2 s repeats by itself, a load over time each p: the motion repeats after their common period.
+TEST(Orbit, ASequenceAndALawOverTimeRepeatTogether) {
+  for (const auto& [law, common] : {std::pair{1.0, 2.0}, {2.0, 2.0}, {2.5, 10.0}, {3.0, 6.0}, {4.0, 4.0}, {6.0, 6.0}}) {
+    const Orbit orbit = orbit_of(scene_from(fmt::format(
+        "line = [\"motor\", \"mill\"]\nmotor = {{ kind = \"dc shunt motor\", stall_torque = \"100 N*m\", no_load_speed "
+        "= "
+        "\"20 rad/s\", inertia = \"1 kg*m2\" }}\nmill = {{ kind = \"load\", inertia = \"2 kg*m2\", table = {{ over = "
+        "\"time\", unit = [\"s\", \"N*m\"], period = \"{0} s\", points = [[0, 10], [0.3, 50], [{0}, 10]] }} }}\n"
+        "[sequence]\nrepeat = true\nsteps = [{{ at = \"0 s\", set = \"motor\", to = 1 }}, {{ after = \"1 s\", set = "
+        "\"motor\", to = 0.5 }}, {{ after = \"1 s\", set = \"motor\", to = 1 }}]\n",
+        law)));
+    ASSERT_EQ(orbit.kind, Orbit::Kind::cycle) << law << ": " << orbit.words;
+    EXPECT_NEAR(orbit.point.time, common, 1e-6) << law;
+  }
+}
+
 TEST(Orbit, ASequenceOfManyStepsRepeats) {
   constexpr int strokes = 150;
   constexpr double pulse = 0.01, pause = 0.1, fades = 60.0 / 40 / 6, gripped = 40 * (1 - 5 / 60.0);
