@@ -20,7 +20,8 @@ constexpr double late = 0.75;                               // of the time
 void LinkRecorder::begin(double t, std::span<const double> y, Equations& equations) {
   if (began_) return;
   began_ = true;
-  angle_ = foremost_ = hindmost_ = late_begin_ = low_ = high_ = equations.angle_with_turns(at(m_.reduction_angle), y);
+  first_ = angle_ = foremost_ = hindmost_ = late_begin_ = low_ = high_ =
+      equations.angle_with_turns(at(m_.reduction_angle), y);
   begin_ = turned_at_ = t, late_from_ = t + late * (until_ - t);
 }
 

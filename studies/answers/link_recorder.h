@@ -18,10 +18,10 @@ class LinkRecorder final : public Observer {
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
   void remember(Tape& tape) override {
-    tape(began_, angle_, foremost_, hindmost_, driven_back_, begin_, turned_at_, sense_, backwards_since_, fell_before_,
-         driven_, driven_since_, late_from_, late_begin_, late_sense_, changes_, way_, low_, high_, fastest_,
-         late_fastest_, reversal_, first_change_, last_change_, extreme_, turned_back_, first_swing_, last_swing_,
-         swing_before_last_, half_swing_, swing_fastest_, swing_before_, turning_, turns_back_, last_turn_,
+    tape(began_, first_, angle_, foremost_, hindmost_, driven_back_, begin_, turned_at_, sense_, backwards_since_,
+         fell_before_, driven_, driven_since_, late_from_, late_begin_, late_sense_, changes_, way_, low_, high_,
+         fastest_, late_fastest_, reversal_, first_change_, last_change_, extreme_, turned_back_, first_swing_,
+         last_swing_, swing_before_last_, half_swing_, swing_fastest_, swing_before_, turning_, turns_back_, last_turn_,
          turn_before_);
   }
 
@@ -43,6 +43,7 @@ class LinkRecorder final : public Observer {
   // there or in its last whole swing, which need not fit into that quarter.
   bool swings() const {
     const double swing = last_swing_ + swing_before_last_;
+    if (last_swing_ > 0 && std::abs(angle_ - turned_back_) > swing) return false;  // it has left the swing
     return changes_ >= 2 && (std::abs(angle_ - late_begin_) < 0.25 * way_ ||
                              (changes_ > 2 && std::abs(last_swing_ - swing_before_last_) < 0.25 * swing));
   }
@@ -50,6 +51,14 @@ class LinkRecorder final : public Observer {
   bool vibrates() const { return swings() && late_fastest_ > 0.05 * fastest_; }
   // It has turned back twice at least, and is between the places of the last two times: these places [rad].
   bool rocks() const { return turns_back_ >= 2 && last_swing().first <= angle_ && angle_ <= last_swing().second; }
+  // It turns the faster the longer: in the last quarter, on average, by a fifth than in the whole time up to t.
+  bool gathers_speed(double t) const {
+    const double now = (angle_ - late_begin_) / (t - late_from_), whole = (angle_ - first_) / (t - begin_);
+    return t > late_from_ && now * whole > 0 && std::abs(now) > std::max(1.2 * std::abs(whole), 1e-5 * m_.speed_scale);
+  }
+  // Since its last reversal it is faster by half than between that and the one before.
+  bool leaves_its_swing() const { return swing_fastest_ > 1.5 * swing_before_; }
+  double last_reversal() const { return reversal_; }  // [s]
   std::pair<double, double> last_swing() const { return std::minmax(last_turn_, turn_before_); }
   double fastest() const { return fastest_; }            // |speed| at the end of any step [rad/s]
   double fastest_late() const { return late_fastest_; }  // |speed| in the last quarter of the time [rad/s]
@@ -69,8 +78,8 @@ class LinkRecorder final : public Observer {
   Sources sources_;
   double until_;
   bool began_ = false;
-  bool driven_ = false;                             // at the end of the last step
-  double angle_ = 0, foremost_ = 0, hindmost_ = 0;  // hindmost: since it was foremost
+  bool driven_ = false;                                         // at the end of the last step
+  double first_ = 0, angle_ = 0, foremost_ = 0, hindmost_ = 0;  // hindmost: since it was foremost
   double driven_back_ = 0, fell_before_ = 0;
   double begin_ = 0, turned_at_ = 0, backwards_since_ = 0, driven_since_ = 0;
   int sense_ = 0, turning_ = 0, turns_back_ = 0;  // turning: the sense in which it last turned

@@ -14,6 +14,7 @@
 #include "engine/return_map/periodicity.h"
 #include "engine/run/sources.h"
 #include "engine/scene/effects.h"
+#include "mechanisms/reduced/mechanism.h"
 #include "studies/answers/holders.h"
 
 namespace kurbel {
@@ -25,6 +26,7 @@ constexpr double turns_back_from = 1e-2;  // of the usual speed
 constexpr double changes_by = 0.1;        // of an amplitude: less is a lasting vibration
 constexpr double nearly = 0.2;            // of the largest speed so far: below it the link has come to a stop
 constexpr double pushes = 0.1;            // of a motor's rated torque: what holds it is reported
+constexpr double slowed = 0.8;            // of a speed: it is being stopped
 constexpr double short_while = 0.02;      // of the time, of a torque
 constexpr double dust = 1e-9;             // of the usual speed: rounding
 constexpr double same_speed = 1e-3;       // of a speed: no other one
@@ -129,6 +131,7 @@ class Judge {
     const bool is_free = !is_held() && !holders_.any();
     const double left = std::abs(now_.sums.torque[shaft_] / gain());
     if (outcome_.t - recorder_.driven_since() < short_while * outcome_.t) return {};
+    if (is_free && recorder_.gathers_speed(outcome_.t)) return {};
     if (!recorder_.turned() && is_free && std::abs(speed()) > 0.5 * recorder_.fastest() &&
         left > short_while * std::abs(torque))
       return {};
@@ -170,29 +173,29 @@ class Judge {
     const double torque = drive(), least = drives * m_.torque_scale;
     const bool since_off = r.periods.run_down_begin && recorder_.backwards_since() > *r.periods.run_down_begin;
     if (torque < -least || (torque <= least && speed() >= recorder_.driven_back() && !since_off)) return {};
-    // What drives forwards will stop it within half a turn: no load is stronger.
+    // What drives forwards has slowed it in the last quarter of the time, or will stop it within half a turn: no load is
+    // stronger.
     const double slowing = std::abs(gain() * now_.alpha[shaft_]);
-    if (torque > least && slows_down() && speed() * speed() < 2 * std::numbers::pi * slowing) return {};
-    const auto weak = std::find_if(contacts.begin(), contacts.end(),
-                                   [](const Claim& c) { return c.predicate == Predicate::brake_does_not_stop; });
+    if (torque > least && slows_down() &&
+        (speed() * speed() < 2 * std::numbers::pi * slowing || std::abs(speed()) < slowed * recorder_.fastest_late()))
+      return {};
     return claimed(
         Predicate::turns_back,
         fmt::format("\"{}\" turns backwards, at {} at the end: {}", link(), m_.scene.speed_unit.text(speed()),
                     torque > least
                         ? fmt::format("its loads are stronger than the {} N·m that drive it forwards", torque)
-                        : fmt::format("its loads drive it, and {}",
-                                      weak == contacts.end() ? "nothing holds them"
-                                                             : fmt::format("\"{}\" does not hold them", weak->of))),
+                        : driven_by_loads(contacts)),
         link(), of_speed(r, speed(), 0));
   }
 
-  // `fastest`: of the run; what nothing drives any more is then driven by its loads.
-  std::optional<Claim> runs_away(const Result& r, double fastest) const {
+  // `fastest`: of the run; what nothing drives any more, and gains, is then driven by its loads.
+  std::optional<Claim> runs_away(const Result& r, double fastest, const Claims& contacts) const {
     const Periods& p = r.periods;
     const double limit = far_away * m_.speed_scale;
     const bool too_few = !p.without_limit && !p.remaining;  // cycles to judge by
     if (!(std::abs(speed()) > limit)) return {};
-    const bool by_loads = is_off() && speed() >= (1 - same_speed) * fastest && !slows_down();
+    const bool gains_speed = gain() * now_.alpha[shaft_] * outcome_.t > short_while * speed();
+    const bool by_loads = is_off() && speed() >= (1 - same_speed) * fastest && gains_speed;
     if (!by_loads) {
       if (is_commanded() || p.steady || p.run_down_begin || !(p.without_limit || too_few)) return {};
       if (settles_at_a_higher_speed() || settles_later(too_few ? gains : 0)) return {};
@@ -201,7 +204,7 @@ class Judge {
         Predicate::runs_away,
         fmt::format("\"{}\" runs away: {} at the end, {:.3g} times the speed of its data{}", link(),
                     m_.scene.speed_unit.text(speed()), std::abs(speed()) / m_.speed_scale,
-                    by_loads ? ": its loads drive it, and nothing holds them"
+                    by_loads ? ": " + driven_by_loads(contacts)
                     : too_few
                         ? ", and it goes on to gain, no less from each doubling of the time than from the one before"
                         : ", and " + p.verdict),
@@ -312,7 +315,11 @@ class Judge {
     if (is_commanded() || std::any_of(r.cycles.begin(), r.cycles.end(), is_whole) || m_.cycle == 0 ||
         r.periods.run_down_begin || holders_.brake(true))
       return {};
-    const bool rocks = recorder_.rocks() && recorder_.fastest_late() > nearly * fastest;
+    const MechanismElement* const mechanism =
+        m_.reduction_element < 0 ? nullptr : mechanism_of(m_.network.elements[at(m_.reduction_element)]);
+    if (mechanism && mechanism->mechanism().arc()) return {};  // a crank that rocks
+    const bool rocks = recorder_.rocks() && recorder_.fastest_late() > nearly * fastest &&
+                       recorder_.driven_since() < recorder_.last_reversal() && !recorder_.leaves_its_swing();
     if (rocks ? clock_of(m_) > 0 : std::abs(speed()) > nearly * fastest) return {};
     if (!(std::abs(drive()) > drives * m_.torque_scale)) return {};
     constexpr double degree = std::numbers::pi / 180;
@@ -423,9 +430,9 @@ Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Resu
   if (halts) {
     add(claims, std::move(halts));
   } else {
-    for (std::optional<Claim> claim :
-         std::array{judge.backwards(result, contacts), judge.runs_away(result, fastest), judge.hangs(result.periods),
-                    judge.never_completes_a_cycle(result, fastest), judge.held(fastest), judge.starts(result, fastest)})
+    for (std::optional<Claim> claim : std::array{
+             judge.backwards(result, contacts), judge.runs_away(result, fastest, contacts), judge.hangs(result.periods),
+             judge.never_completes_a_cycle(result, fastest), judge.held(fastest), judge.starts(result, fastest)})
       add(claims, std::move(claim));
     if (std::none_of(claims.begin(), claims.end(), [](const Claim& c) { return c.is_bad(); })) {
       std::optional<Claim> vibrates = judge.vibrates(result.periods), held = judge.motor_held();

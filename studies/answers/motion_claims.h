@@ -28,6 +28,9 @@ inline bool keeps_gaining(const std::array<double, 3>& mean) {
 // command, or overrun. `result` contains the errors of its final state.
 Claims contact_claims(Equations& equations, const RunOutcome& outcome, const Result& result, const SlipRecorder& slips);
 
+// "its loads drive it, and nothing holds them", or the brake among those claims that does not.
+std::string driven_by_loads(const Claims& contacts);
+
 // Of a machine whose motion ended where the friction in a mechanism's joints allows none; empty: it did not.
 std::optional<Claim> joints_jam(const Model& model, const RunOutcome& outcome);
 

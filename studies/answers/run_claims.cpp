@@ -121,14 +121,16 @@ class RunWords {
   }
   // "; it turns backwards at the end, at −21 rad/s"; or faster than ever before, after its drive was switched off.
   std::string at_the_end() const {
-    constexpr double least = 0.01, same = 1e-3;  // of the usual speed, of a speed
+    constexpr double least = 0.01, same = 1e-3, faster = 1.1;  // of the usual speed, of a speed, than before
     const Figure *last = figure(quantities::final_speed), *fastest = figure(quantities::max_speed);
     if (p_.standstill || !last || !fastest || r_.model->scene.run.start.speed < 0) return {};
     const double slow = least * r_.model->speed_scale;
     if (last->value < -slow && (!p_.run_down_begin || fastest->value > slow))
       return fmt::format("; it turns backwards at the end, at {}", speed(last->value));
-    if (!p_.run_down_begin || last->value < std::max(slow, (1 - same) * fastest->value)) return {};
-    return fmt::format("; its loads drive it on, to {} at the end", speed(last->value));
+    if (!p_.run_down_begin || last->value < std::max(slow, (1 - same) * fastest->value) || p_.steady_speed == 0 ||
+        last->value < faster * std::abs(p_.steady_speed))
+      return {};
+    return fmt::format("; its loads drove it on, to {} at the end", speed(last->value));
   }
   // ", held by "brake" against the 147 N·m that act on it": for a link at rest with a torque on it; a motor's is another
   // sentence.

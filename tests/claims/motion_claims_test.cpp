@@ -185,7 +185,7 @@ TEST(RunningAway, IsSaidOfAWeightThatIsLoweredAndLetGo) {
   };
   const Result off = lowered("5 s"), far = lowered("10 s");
   EXPECT_FALSE(find(off.claims, Predicate::runs_away)) << said(off);
-  EXPECT_TRUE(has(said(off), "; its loads drive it on, to ")) << said(off);
+  EXPECT_TRUE(has(said(off), "; its loads drove it on, to ")) << said(off);
   const Claim* away = find(far.claims, Predicate::runs_away, "motor");
   ASSERT_TRUE(away) << said(far);
   EXPECT_NEAR(*away->evidence.value, 10 * 56 / 50.0 * (1 - std::exp(-2.5 * 4)) + 3 * 6, 1e-5);
