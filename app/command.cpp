@@ -106,17 +106,26 @@ void refuse_empty_values(CLI::App& app) {
 // The words of the command line, the last one first; a range behind an option of two values is two: "20..200 rpm".
 std::vector<std::string> words_of(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> words;
+  const auto is_of_two = [&](const std::string& name) {
+    const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+    return std::any_of(commands.begin(), commands.end(), [&](const CLI::App* command) {
+      const CLI::Option* const option = command->get_option_no_throw(name);
+      return option && option->get_items_expected_min() == 2;
+    });
+  };
   bool of_two = false;  // the word before is such an option
   for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
+    std::string word = argv[i];
+    if (const std::size_t equals = word.find('='); word.starts_with("--") && equals != std::string::npos)
+      if (const std::string name = word.substr(0, equals); is_of_two(name)) {
+        words.push_back(name);
+        word.erase(0, equals + 1), of_two = true;
+      }
     if (const auto ends = of_two ? range_ends(word) : std::nullopt)
       words.insert(words.end(), ends->begin(), ends->end());
     else
       words.push_back(word);
-    of_two = false;
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-      if (const CLI::Option* option = command->get_option_no_throw(word))
-        of_two = of_two || option->get_items_expected_min() == 2;
+    of_two = is_of_two(word);
   }
   std::reverse(words.begin(), words.end());
   return words;

@@ -46,9 +46,8 @@ std::string words_of_arc(const Mechanism& mechanism) {
 std::string limit_reached(const Mechanism& mechanism, int end) {
   const CrankArc& arc = *mechanism.arc();
   return fmt::format(
-      "\"{}\" comes to the end of its arc at φ = {:.4g}°: its {}; there the crank turns back while the other links "
-      "continue on the other branch, and quantities reduced to the crank have no bound; let a load, a spring or a "
-      "brake reverse it before, or let a link that turns fully be the crank",
+      "\"{}\" comes to the end of its arc at φ = {:.4g}°: its {}; there quantities reduced to the crank have no "
+      "bound; let a load, a spring or a brake reverse it before, or let a link that turns fully be the crank",
       mechanism.name, (arc.middle + end * arc.reach()) / degree, words_of_arc(mechanism));
 }
 

@@ -79,9 +79,9 @@ std::optional<AngleRange> rocking_range(const Model& m, const std::optional<Angl
     };
     if (const AngleRange whole = about(CrankArc::share);
         given && !(given->from < given->to && whole.holds(given->from) && whole.holds(given->to)))
-      throw std::invalid_argument(
-          fmt::format("--range: {:.4g}° to {:.4g}° is no range within the arc of \"{}\": its {}", given->from / degree,
-                      given->to / degree, e.component, words_of_arc(element->mechanism())));
+      throw std::invalid_argument(fmt::format(
+          "--range: {:.6g}° to {:.6g}°; must rise, within {:.6g}° to {:.6g}°, where the crank of \"{}\" rocks",
+          given->from / degree, given->to / degree, whole.from / degree, whole.to / degree, e.component));
     const AngleRange part = about(share_of_arc);
     range = range ? AngleRange{std::max(range->from, part.from), std::min(range->to, part.to)} : part;
   }

@@ -80,7 +80,7 @@ class Builder {
       return value(of_motion ? moving_at(x, motion) : at(x, motion));
     };
     Peak found = measured_peak_of(phi_, values, value_at, scale);
-    if (std::abs(found.value) <= rounding_of_forces * scale) found = {{0, rounding_of_forces * scale}};
+    if (std::abs(found.value) <= rounding_of_forces * scale) found = {{0, rounding_of_forces * scale}, cycle_.begin};
     found.scale = scale;
     return found;
   }

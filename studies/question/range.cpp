@@ -18,7 +18,7 @@ std::optional<Numbered> numbered(std::string_view text) {
 }
 
 std::optional<std::array<std::string, 2>> range_ends(std::string_view text) {
-  for (const std::string_view dots : {"..", "…"})
+  for (const std::string_view dots : {"...", "..", "…"})
     if (const std::size_t at = text.find(dots); at != std::string_view::npos) {
       std::array ends = {std::string(trimmed(text.substr(0, at))), std::string(trimmed(text.substr(at + dots.size())))};
       const auto low = numbered(ends[0]), high = numbered(ends[1]);

@@ -43,7 +43,9 @@ std::string conclusion_of(const MachineReduction& r) {
   const std::string begin = fmt::format("Reduced to {}, the machine has {} kg·m²{}", r.to, range, over_range(r));
   if (r.constant_inertia == 0) return begin;
   return fmt::format("{}, {} at constant ratio", begin,
-                     constant == range ? "all of it" : fmt::format("of which {} kg·m² turn", constant));
+                     range == range_text(r.constant_inertia, r.constant_inertia, 5)
+                         ? "all of it"
+                         : fmt::format("of which {} kg·m² turn", constant));
 }
 
 // --- tables ---

@@ -145,9 +145,8 @@ TEST(RockingRange, RefusesARangeThatLeavesTheArc) {
     }
     return "";
   };
-  EXPECT_NE(refused(double_rocker(), {20 * degree, 80 * degree}).find("crank rocks between φ = 27.65° and 98.2°"),
-            std::string::npos);
-  EXPECT_NE(refused(double_rocker(), {80 * degree, 40 * degree}).find("no range"), std::string::npos);
+  EXPECT_NE(refused(double_rocker(), {20 * degree, 80 * degree}).find("to 98.1"), std::string::npos);
+  EXPECT_NE(refused(double_rocker(), {80 * degree, 40 * degree}).find("must rise"), std::string::npos);
   const std::string turning = R"(
 line = ["motor", "press"]
 motor = { kind = "torque source", torque = "1 N*m", inertia = "0.1 kg*m2" }
