@@ -25,6 +25,16 @@ void LinkRecorder::begin(double t, std::span<const double> y, Equations& equatio
   begin_ = turned_at_ = t, late_from_ = t + late * (until_ - t);
 }
 
+bool LinkRecorder::gathers_speed(double t, double least) const {
+  if (!(t > late_from_)) return false;
+  const double advance = angle_ - first_, time = t - begin_;
+  const double now = (angle_ - late_begin_) / (t - late_from_), whole = advance / time;
+  double inertia = 0;  // of all shafts, on the link
+  for (const Shaft& s : m_.shafts) inertia += s.mean_inertia * std::pow(m_.node_ratio[at(s.reference)], 2);
+  return now * whole > 0 && std::abs(now) > 1.2 * std::abs(whole) &&
+         inertia * 2 * std::abs(advance) / (time * time) > least;
+}
+
 void LinkRecorder::step(StepView& view) {
   const TrackedAngle& link = m_.angles[at(m_.reduction_angle)];
   if (at(link.shaft) >= m_.free_shafts) {  // prescribed: it rests nowhere

@@ -51,11 +51,9 @@ class LinkRecorder final : public Observer {
   bool vibrates() const { return swings() && late_fastest_ > 0.05 * fastest_; }
   // It has turned back twice at least, and is between the places of the last two times: these places [rad].
   bool rocks() const { return turns_back_ >= 2 && last_swing().first <= angle_ && angle_ <= last_swing().second; }
-  // It turns the faster the longer: in the last quarter, on average, by a fifth than in the whole time up to t.
-  bool gathers_speed(double t) const {
-    const double now = (angle_ - late_begin_) / (t - late_from_), whole = (angle_ - first_) / (t - begin_);
-    return t > late_from_ && now * whole > 0 && std::abs(now) > std::max(1.2 * std::abs(whole), 1e-5 * m_.speed_scale);
-  }
+  // It turns the faster the longer: in the last quarter, on average, by a fifth than in the whole time up to t; and from rest a
+  // constant torque of more than `least` would have brought it as far [N·m].
+  bool gathers_speed(double t, double least) const;
   // Since its last reversal it is faster by half than between that and the one before.
   bool leaves_its_swing() const { return swing_fastest_ > 1.5 * swing_before_; }
   double last_reversal() const { return reversal_; }  // [s]

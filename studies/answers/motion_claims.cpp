@@ -131,7 +131,7 @@ class Judge {
     const bool is_free = !is_held() && !holders_.any();
     const double left = std::abs(now_.sums.torque[shaft_] / gain());
     if (outcome_.t - recorder_.driven_since() < short_while * outcome_.t) return {};
-    if (is_free && recorder_.gathers_speed(outcome_.t)) return {};
+    if (is_free && recorder_.gathers_speed(outcome_.t, short_while * std::abs(torque))) return {};
     if (!recorder_.turned() && is_free && std::abs(speed()) > 0.5 * recorder_.fastest() &&
         left > short_while * std::abs(torque))
       return {};
