@@ -66,7 +66,7 @@ constexpr std::array kinds = {
               "the time confirms it: the gain does not decrease from one doubling of the time to the next, or the "
               "trial ends earlier, by the budget, by ten times the run's evaluations in one doubling, or by a fault. "
               "With fewer than three cycles only a complete trial counts, which must reach 1.3 times the speed. With "
-              "nothing on any more the end must be the fastest of the run, and not slow down",
+              "nothing on any more the end must be the fastest of the run, and gain speed",
               "value: speed at the end; limit: 1.5 times the usual speed [rad/s]",
               "\"motor\" runs away: 100 rad/s at the end, 10 times the speed of its data, and the mean speed "
               "changes by +6.5 % per sixteenth of the time, and this change does not decrease",

@@ -68,8 +68,9 @@ std::optional<AngleRange> rocking_range(const Model& m, const std::optional<Angl
   for (const Network::ShaftElement& e : m.network.elements) {
     const MechanismElement* const element = mechanism_of(e);
     const CrankArc* const arc = element && !element->mechanism().is_force() ? element->mechanism().arc() : nullptr;
-    if (!arc) continue;
-    const double ratio = m.node_ratio[at(e.node)], period = turn / std::abs(ratio);
+    const double ratio = m.node_ratio[at(e.node)];
+    if (!arc || ratio == 0) continue;  // 0: it stands in the usual motion
+    const double period = turn / std::abs(ratio);
     const double start = m.scene.run.start.on.empty() ? m.scene.run.start.angle : 0,
                  middle = (arc->middle - e.phase) / ratio;
     const double near = start + std::remainder(middle - start, period);
