@@ -41,17 +41,7 @@ Question forces_question() {
                 .example = "300 rpm",
                 .what = "a speed"},
                &ForcesOptions::speed)
-          .add({.name = "range",
-                .doc = "two angles, for a crank that rocks: over that part of its arc (default: 95 % of it), e.g. "
-                       "\"-45..45 deg\"",
-                .example = "45 deg",
-                .what = "two angles, the lesser first, e.g. \"-45..45 deg\"",
-                .count = 2},
-               OptionForm::several,
-               [](ForcesRequest& asked, const OptionValues& given) {
-                 const auto [from, to] = given.range();
-                 asked.range = {from, to};
-               })
+          .add(arc_range(), OptionForm::several, take_arc_range<ForcesRequest>)
           .add({.name = "mechanism",
                 .doc = "which slider-crank, four-bar, quick-return, inverted slider-crank, knuckle press or linkage "
                        "(default: the first)"},

@@ -45,17 +45,7 @@ OptionsOf<ReduceRequest> options() {
                    "default where the classical one omits an effect)"},
            &ReduceOptions::basis,
            std::vector{std::pair("classical", CycleBasis::classical), std::pair("steady", CycleBasis::steady)})
-      .add({.name = "range",
-            .doc = "two angles, for a crank that rocks: over that part of its arc (default: 95 % of it), e.g. "
-                   "\"-45..45 deg\"",
-            .example = "45 deg",
-            .what = "two angles, the lesser first, e.g. \"-45..45 deg\"",
-            .count = 2},
-           OptionForm::several,
-           [](ReduceRequest& asked, const OptionValues& given) {
-             const auto [from, to] = given.range();
-             asked.range = {from, to};
-           })
+      .add(arc_range(), OptionForm::several, take_arc_range<ReduceRequest>)
       .add({.name = "orders", .doc = "harmonics up to this order (default: 12)", .domain = {.low = 1, .high = 1000}},
            &ReduceOptions::orders)
       .add(sheet_options(), &ReduceRequest::sheet)

@@ -1,4 +1,4 @@
-// sheet_options.cpp — whether a sheet is asked for, and on which paper.
+// sheet_options.cpp — whether a sheet is asked for, and on which paper; over which angles a rocking crank is looked at.
 #include "studies/worksheet/sheet_options.h"
 
 #include <fmt/format.h>
@@ -23,6 +23,16 @@ const OptionsOf<SheetRequest>& sheet_options() {
                &SheetRequest::wanted)
           .add({.name = "paper", .doc = "of the sheet, landscape: A4 (default) or A3"}, &SheetRequest::paper);
   return made;
+}
+
+OptionText arc_range() {
+  return {
+      .name = "range",
+      .doc =
+          "two angles, for a crank that rocks: over that part of its arc (default: 95 % of it), e.g. \"-45..45 deg\"",
+      .example = "45 deg",
+      .what = "two angles, the lesser first, e.g. \"-45..45 deg\"",
+      .count = 2};
 }
 
 }  // namespace kurbel

@@ -1,4 +1,4 @@
-// sheet_options.h — options of the classical printed sheet of positions.
+// sheet_options.h — options that reduce and forces share: the classical printed sheet of positions, the range of a rocking crank.
 #pragma once
 
 #include <optional>
@@ -18,5 +18,13 @@ struct SheetRequest {
 };
 
 const OptionsOf<SheetRequest>& sheet_options();
+
+// --range: part of the arc of a crank that rocks [rad].
+OptionText arc_range();
+template <class Request>
+void take_arc_range(Request& asked, const OptionValues& given) {
+  const auto [from, to] = given.range();
+  asked.range = {from, to};
+}
 
 }  // namespace kurbel
