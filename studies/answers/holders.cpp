@@ -29,6 +29,36 @@ std::vector<char> shafts_joined_to(const Model& m, std::size_t shaft, const std:
   return joined;
 }
 
+double driving_torque(const Equations& equations, const Snapshot& now, std::size_t shaft) {
+  const Model& m = equations.model();
+  const auto slips = [&](std::size_t j) { return m.elastic[j].slips && equations.modes().slip[j] != 0; };
+  const auto drives_any = [&](const std::vector<char>& far, const std::vector<char>& near) {
+    return std::any_of(m.network.elements.begin(), m.network.elements.end(), [&](const Network::ShaftElement& e) {
+      const std::size_t s = at(m.shaft_of_node[at(e.node)]);
+      return e.element->account == Account::driving && far[s] != 0 && near[s] == 0;
+    });
+  };
+  const std::vector<char> near = shafts_joined_to(m, shaft, [&](std::size_t j) { return !slips(j); });
+  double torque = 0;
+  for (std::size_t e = 0; e < m.network.elements.size(); ++e) {
+    const Network::ShaftElement& element = m.network.elements[e];
+    if (element.element->account == Account::driving && near[at(m.shaft_of_node[at(element.node)])] != 0)
+      torque += now.sums.element_torque[e] * m.node_ratio[at(element.node)];
+  }
+  for (std::size_t j = 0; j < m.elastic.size(); ++j) {
+    const ElasticJoint& joint = m.elastic[j];
+    const auto [a, b] = std::pair(at(joint.shaft_a), at(joint.shaft_b));
+    if (!slips(j) || near[a] == near[b]) continue;
+    const bool on_b = near[b] != 0;
+    const std::size_t here = on_b ? b : a, there = on_b ? a : b;
+    if (!drives_any(shafts_joined_to(m, there, [&](std::size_t other) { return other != j; }), near)) continue;
+    const std::size_t reference = at(m.shafts[here].reference);
+    const double ratio = m.node_ratio[reference] / m.gain_of_node[reference];  // ω of the shaft / ω of the link
+    torque += now.joint_torque[joint.joint] * (on_b ? joint.gain_b : -joint.gain_a) * ratio;
+  }
+  return torque;
+}
+
 Holders::Holders(const Equations& equations, double t, std::size_t shaft)
     : equations_(equations), m_(equations.model()), end_(t), joined_(shafts_joined_to(m_, shaft, [&](std::size_t j) {
         const ElasticJoint& joint = m_.elastic[j];

@@ -1,4 +1,5 @@
-// holders.h — what holds a machine at the end of a run: brakes, gears locked by their losses, what opposes motion.
+// holders.h — what holds a machine at the end of a run (brakes, gears locked by their losses, what opposes motion), and
+// what drives it.
 #pragma once
 
 #include <functional>
@@ -12,6 +13,10 @@ namespace kurbel {
 // By shaft: which ones gears, and those elastic joints for which it is true, join to this one.
 std::vector<char> shafts_joined_to(const Model& model, std::size_t shaft,
                                    const std::function<bool(std::size_t)>& joins);
+
+// Σ ω_e/ω_link τ_e over the drives joined to `shaft` without slip, and over the joints that slip between it and further
+// drives, with what these transmit [N·m on the reduction link]. `now`: of `equations` in their modes.
+double driving_torque(const Equations& equations, const Snapshot& now, std::size_t shaft);
 
 class Holders {
  public:

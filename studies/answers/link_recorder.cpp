@@ -61,12 +61,12 @@ void LinkRecorder::step(StepView& view) {
   const bool drives = sources_.drive(equations.modes().active);
   if (drives && !driven_) driven_since_ = view.t_previous();
   if (std::exchange(driven_, drives) && !drives) {
-    fell_before_ = 0;
+    fell_before_ = 0, driven_to_ = angle_;
     if (speed > 0) foremost_ = hindmost_ = angle_;
   }
   if (speed >= 0)
     driven_back_ = 0;
-  else if (drives)
+  else if (drives || driven_to_ - angle_ < m_.cycle)  // a mechanism's speed varies within its cycle
     driven_back_ = std::min(driven_back_, speed);
   const double least = least_turning * m_.speed_scale;
   const auto speed_at = [&](double t) { return view.at(t, state); };

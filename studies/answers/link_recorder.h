@@ -18,11 +18,11 @@ class LinkRecorder final : public Observer {
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
   void remember(Tape& tape) override {
-    tape(began_, first_, angle_, foremost_, hindmost_, driven_back_, begin_, turned_at_, sense_, backwards_since_,
-         fell_before_, driven_, driven_since_, late_from_, late_begin_, late_sense_, changes_, way_, low_, high_,
-         fastest_, late_fastest_, reversal_, first_change_, last_change_, extreme_, turned_back_, first_swing_,
-         last_swing_, swing_before_last_, half_swing_, swing_fastest_, swing_before_, turning_, turns_back_, last_turn_,
-         turn_before_);
+    tape(began_, first_, angle_, foremost_, hindmost_, driven_back_, driven_to_, begin_, turned_at_, sense_,
+         backwards_since_, fell_before_, driven_, driven_since_, late_from_, late_begin_, late_sense_, changes_, way_,
+         low_, high_, fastest_, late_fastest_, reversal_, first_change_, last_change_, extreme_, turned_back_,
+         first_swing_, last_swing_, swing_before_last_, half_swing_, swing_fastest_, swing_before_, turning_,
+         turns_back_, last_turn_, turn_before_);
   }
 
   // Its greatest angle minus the angle at the end, turns counted [rad]: since it last came forwards by half of what it had
@@ -30,15 +30,16 @@ class LinkRecorder final : public Observer {
   double fell_back() const { return foremost_ - angle_; }
   // The deepest of those falls since then [rad]; 0: there was none.
   double fell_before() const { return fell_before_; }
-  // Greatest speed of that rotation while anything drove [rad/s, ≤ 0].
+  // Greatest speed of that rotation while anything drove, and in the first cycle after it [rad/s, ≤ 0].
   double driven_back() const { return driven_back_; }
   double driven_since() const { return driven_since_; }        // when the drive was last switched on [s]
   double backwards_since() const { return backwards_since_; }  // start of the last backward rotation [s]
   double turned_at() const { return turned_at_; }              // when it last turned, or the begin [s]
+  double began_at() const { return begin_; }                   // the recording [s]
   bool turned() const { return turned_at_ > begin_; }
-  // It has not turned for the last fiftieth of the time up to t, nor for the time between its last two reversals: a swing
+  // It has not turned for the last fiftieth of the recorded time up to t, nor for the time between its last two reversals: a swing
   // stands where it turns.
-  bool rests(double t) const { return t - turned_at_ > std::max(0.02 * t, half_swing_); }
+  bool rests(double t) const { return t - turned_at_ > std::max(0.02 * (t - begin_), half_swing_); }
   // In the last quarter of the time it reversed at least twice, and advanced by less than a quarter of the path covered
   // there or in its last whole swing, which need not fit into that quarter.
   bool swings() const {
@@ -78,7 +79,8 @@ class LinkRecorder final : public Observer {
   bool began_ = false;
   bool driven_ = false;                                         // at the end of the last step
   double first_ = 0, angle_ = 0, foremost_ = 0, hindmost_ = 0;  // hindmost: since it was foremost
-  double driven_back_ = 0, fell_before_ = 0;
+  double driven_back_ = 0, driven_to_ = 0,
+         fell_before_ = 0;  // driven_to: the angle at which the drive was switched off
   double begin_ = 0, turned_at_ = 0, backwards_since_ = 0, driven_since_ = 0;
   int sense_ = 0, turning_ = 0, turns_back_ = 0;  // turning: the sense in which it last turned
   double last_turn_ = 0, turn_before_ = 0;        // angles at which it turned back

@@ -47,6 +47,10 @@ class Judge {
         holders_(equations, outcome.t, shaft_) {}
 
   std::string link() const { return m_.network.nodes[at(m_.reduction_node)].component; }
+  std::string speed_in_words() const {
+    return std::abs(speed()) < dust * m_.speed_scale ? "at rest" : "with " + m_.scene.speed_unit.text(speed());
+  }
+  double duration() const { return outcome_.t - recorder_.began_at(); }
   double angle() const { return now_.node_angle[m_.reduction_node]; }
   double gain() const { return m_.gain_of_node[at(m_.reduction_node)]; }
   double speed() const { return gain() * now_.now.speed[shaft_]; }
@@ -58,17 +62,10 @@ class Judge {
   bool creeps() const {
     const double slow = turns_back_from * m_.speed_scale;
     if (recorder_.rocks() && recorder_.fastest_late() > slow) return false;
-    return std::abs(speed()) < slow && slows_down() && std::abs(now_.alpha[shaft_]) * short_while * outcome_.t < slow;
+    return std::abs(speed()) < slow && slows_down() && std::abs(now_.alpha[shaft_]) * short_while * duration() < slow;
   }
   bool is_commanded() const { return !m_.commands.empty(); }
-  // Torque of all drives, reduced to the link [N·m].
-  double drive() const {
-    double torque = 0;
-    for (std::size_t e = 0; e < m_.network.elements.size(); ++e)
-      if (m_.network.elements[e].element->account == Account::driving)
-        torque += now_.sums.element_torque[e] * m_.node_ratio[at(m_.network.elements[e].node)];
-    return torque;
-  }
+  double drive() const { return driving_torque(equations_, now_, shaft_); }  // on the link [N·m]
   // A motor under more than this part of its rated torque whose shaft is slower than that part of its rated speed: stands;
   // or that swings with the link.
   const MotorTorque* standing_motor(double torque = drives, double slower = stands, bool link_swings = false) const {
@@ -130,7 +127,7 @@ class Judge {
     // Just begun: what is switched on at the end, or has begun to turn by more than a balance leaves.
     const bool is_free = !is_held() && !holders_.any();
     const double left = std::abs(now_.sums.torque[shaft_] / gain());
-    if (outcome_.t - recorder_.driven_since() < short_while * outcome_.t) return {};
+    if (outcome_.t - recorder_.driven_since() < short_while * duration()) return {};
     if (is_free && recorder_.gathers_speed(outcome_.t, short_while * std::abs(torque))) return {};
     if (!recorder_.turned() && is_free && std::abs(speed()) > 0.5 * recorder_.fastest() &&
         left > short_while * std::abs(torque))
@@ -140,8 +137,9 @@ class Judge {
       const std::string holders = holders_.beside("its loads");
       const bool one = holders.starts_with('"') && holders.find(',') == std::string::npos;
       return claimed(Predicate::does_not_start,
-                     fmt::format("\"{}\" does not start: {} {} the {} N·m that drive it{}", link(), holders,
-                                 one ? "holds" : "hold", std::abs(torque), torque < 0 ? " backwards" : ""),
+                     fmt::format("\"{}\" does not {}: {} {} the {} N·m that drive it{}", link(),
+                                 recorder_.began_at() > 0 ? "turn" : "start", holders, one ? "holds" : "hold",
+                                 std::abs(torque), torque < 0 ? " backwards" : ""),
                      link(), evidence);
     }
     if (!is_held() && !motor) return {};
@@ -194,7 +192,7 @@ class Judge {
     const double limit = far_away * m_.speed_scale;
     const bool too_few = !p.without_limit && !p.remaining;  // cycles to judge by
     if (!(std::abs(speed()) > limit)) return {};
-    const bool gains_speed = gain() * now_.alpha[shaft_] * outcome_.t > short_while * speed();
+    const bool gains_speed = gain() * now_.alpha[shaft_] * duration() > short_while * speed();
     const bool by_loads = is_off() && speed() >= (1 - same_speed) * fastest && gains_speed;
     if (!by_loads) {
       if (is_commanded() || p.steady || p.run_down_begin || !(p.without_limit || too_few)) return {};
@@ -326,10 +324,10 @@ class Judge {
     const auto [low, high] = recorder_.last_swing();
     const std::string place =
         rocks ? fmt::format("turns to and fro, between {:.1f}° and {:.1f}° at the end", low / degree, high / degree)
-              : fmt::format("is at {:.1f}° at the end, with {}", angle() / degree, m_.scene.speed_unit.text(speed()));
+              : fmt::format("is at {:.1f}° at the end, {}", angle() / degree, speed_in_words());
     const std::string* brake = holders_.brake();
     return claimed(Predicate::does_not_get_round,
-                   fmt::format("\"{}\" does not complete a cycle: it {}, where the drive gives {} N·m{}", link(), place,
+                   fmt::format("\"{}\" does not complete a cycle: it {}, where {} N·m drive it{}", link(), place,
                                drive(), brake ? fmt::format(" and \"{}\" holds it", *brake) : ""),
                    link(), {.at = outcome_.t, .value = std::abs(drive()), .limit = 0, .unit = "N*m"});
   }

@@ -35,7 +35,7 @@ constexpr std::array kinds = {
         does_not_start, runs, fault, above,
         "the link never turned at 0.1 % of its usual speed although something drives it; no brake that is on holds "
         "it. With a sequence: if a motor stands under torque",
-        "value: the torque that drives, on the link [N·m]",
+        "value: the torque that drives, on the link; of a drive behind a clutch that slips, the clutch's [N·m]",
         "\"compressor\" does not start: its loads hold the 91.94 N·m that drive it", "run, compare"},
     ClaimKind{brake_does_not_stop, runs, fault, above,
               "a brake that was put on slips at the end, and at that deceleration would not stop its shaft within the "
@@ -75,7 +75,7 @@ constexpr std::array kinds = {
         does_not_get_round, runs, fault, above,
         "the link completes no cycle, its speed at the end is at most a fifth of the largest one, or it goes to and "
         "fro and no law over time repeats, and something drives it; no brake that was put on meanwhile holds it",
-        "value: the torque that drives, on the link [N·m]",
+        "value: the torque that drives, on the link; of a drive behind a clutch that slips, the clutch's [N·m]",
         "\"press\" does not complete a cycle: it is at 161.2° at the end, with 0.1 rpm, where 310 N·m drive it",
         "run, compare"},
     ClaimKind{slips_to_the_end, runs, warning, above,

@@ -1,4 +1,5 @@
 // loads_drive_test.cpp — claims on what loads do after a drive is off or too weak, and on what has left a vibration.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,6 +16,7 @@ namespace {
 using test::find;
 using test::has;
 using test::said;
+using test::scene_from;
 
 // A drum vibrates about its weight until the motor is off at 9 s; then it falls at 50 rad/s².
 std::string shaken_hoist(const char* brake) {
@@ -128,6 +130,71 @@ run = { start = "rest", until = "4 s" }
                              false);
   EXPECT_NEAR(test::figure(r, "final_speed.drum"), -20, 1e-6);
   EXPECT_FALSE(has(said(r), "stronger")) << said(r);
+}
+
+// A motor turns a crank backwards until 3 s; then it coasts without friction, and its speed varies within each turn by 0.65
+// of its mean.
+TEST(LoadsDrive, NoLoadDrivesACrankThatCoastsBackwards) {
+  for (const char* stop : {"3.0 s", "3.03 s", "3.05 s", "3.1 s"}) {
+    const Result r = test::run(fmt::format(R"(line = ["motor", "press"]
+motor = {{ kind = "torque source", torque = "-60 N*m", inertia = "0.05 kg*m2", stop = "{}" }}
+press = {{ kind = "slider-crank", radius = "100 mm", rod = "400 mm", crank_mass = "2 kg", crank_inertia = "0.1 kg*m2", slider_mass = "40 kg" }}
+run = {{ start = "rest", until = "6 s" }}
+)",
+                                           stop),
+                               false);
+    EXPECT_LT(test::figure(r, "final_speed.press"), -100);
+    EXPECT_FALSE(find(r.claims, Predicate::turns_back)) << stop << ": " << said(r);
+  }
+}
+
+// 102 N·m of the motor slip away in a clutch of 20 N·m, behind a gear of 3: 20 N·m reach the press.
+TEST(LoadsDrive, AClutchThatSlipsPassesItsOwnTorque) {
+  const auto said_of = [](const char* load) {
+    return said(test::run(fmt::format(R"(line = ["motor", "gearbox", "clutch", "press", "drag"]
+motor = {{ kind = "dc shunt motor", stall_torque = "153 N*m", no_load_speed = "100 rad/s", inertia = "0.1 kg*m2" }}
+gearbox = {{ kind = "gearbox", stages = [{{ teeth = [20, 60], inertia = ["0.001 kg*m2", "0.01 kg*m2"] }}] }}
+clutch = {{ kind = "clutch", torque = "20 N*m", inertia_in = "0.01 kg*m2", inertia_out = "0.01 kg*m2" }}
+press = {{ kind = "slider-crank", radius = "100 mm", rod = "400 mm", crank_mass = "20 kg", crank_inertia = "3 kg*m2", slider_mass = "1 kg" }}
+drag = {{ kind = "load", {}, inertia = "0.3 kg*m2" }}
+run = {{ start = "rest", until = "12 s" }}
+)",
+                                      load),
+                          false));
+  };
+  const std::string held = said_of("torque = \"50 N*m\"");
+  EXPECT_TRUE(held.starts_with("\"press\" does not start: its loads hold the 20 N·m that drive it")) << held;
+  const std::string pushed = said_of("torque = \"26 N*m\", acts = \"always\"");
+  EXPECT_TRUE(has(pushed, "its loads are stronger than the 20 N·m that drive it forwards")) << pushed;
+}
+
+// A pendulum of 59 N·m behind that clutch comes to rest where it balances the clutch's torque.
+TEST(LoadsDrive, WhatRestsHasNoSpeedOfRounding) {
+  const Result r = test::run(R"(line = ["motor", "clutch", "press"]
+motor = { kind = "dc shunt motor", stall_torque = "153 N*m", no_load_speed = "100 rad/s", inertia = "0.1 kg*m2" }
+clutch = { kind = "clutch", torque = "20 N*m", inertia_in = "0.01 kg*m2", inertia_out = "0.01 kg*m2" }
+press = { kind = "slider-crank", radius = "100 mm", rod = "400 mm", crank_mass = "20 kg", crank_com = "300 mm", crank_inertia = "3 kg*m2", slider_mass = "1 kg", gravity = "9.81 m/s2", stroke_angle = "0 deg", load = { kind = "medium", viscous = "2000 N*s/m" } }
+run = { start = { angle = "-30 deg" }, until = "12 s" }
+)",
+                             false);
+  EXPECT_TRUE(has(said(r), "at the end, at rest, where 20 N·m drive it")) << said(r);
+}
+
+// What stood at the end of a run stands in its continuation, however short.
+TEST(LoadsDrive, AMachineThatStandsIsNamedInItsContinuation) {
+  const Scene scene = scene_from(R"(line = ["motor", "drum"]
+motor = { kind = "dc shunt motor", stall_torque = "20 N*m", no_load_speed = "100 rad/s", inertia = "0.1 kg*m2" }
+drum = { kind = "load", torque = "50 N*m", inertia = "0.3 kg*m2" }
+run = { start = "rest", until = "6 s" }
+)");
+  SimulateOptions options{.measure_error = false, .method = {}, .accuracy = {}, .until = {}, .keep_state = true};
+  const Result first = simulate(scene, scene.effects, "first", options);
+  options.go_on_from = first.checkpoint;
+  for (const double until : {6.01, 6.5, 60.0}) {
+    options.until = until;
+    const Result on = simulate(scene, scene.effects, "continued", options);
+    EXPECT_TRUE(said(on).starts_with("\"motor\" does not turn: its loads hold the 20 N·m that drive it")) << said(on);
+  }
 }
 
 }  // namespace
