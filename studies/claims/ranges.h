@@ -8,8 +8,8 @@
 namespace kurbel {
 
 // "56.79 … 63.00", "5.0 … 7.5", "20 … 200": to the place of the last of so many digits of the larger end, without zeros at the
-// end of both. Ends so far apart that two digits of the smaller one would not remain are rounded by themselves,
-// "0.1234 … 350.1"; ends that are the same then are one number.
+// end of both. Ends so far apart that two digits of the smaller one would not remain, a zero, and ends of which one needs an
+// exponent are rounded by themselves, "0.1234 … 350.1", "0 … 0.3"; ends that are the same then are one number.
 std::string range_text(double low, double high, int digits = 4);
 
 // "1340 … 1640 rpm"

@@ -128,9 +128,11 @@ std::string range_text(double low, double high, int digits) {
   if (!known || (least > 0 && exponent_of(least) <= place))
     return text(rounded_number(low, digits), rounded_number(high, digits));
   std::string from = written(rounded_to(low, place) + 0.0, place), to = written(rounded_to(high, place) + 0.0, place);
+  const auto is_scientific = [](const std::string& number) { return number.find('e') < number.size(); };
+  if (is_scientific(from) != is_scientific(to) || low == 0 || high == 0)
+    return text(rounded_number(low, digits), rounded_number(high, digits));
   const auto ends_with = [&](char c) { return from.ends_with(c) && to.ends_with(c); };
-  const bool decimals = from.find('.') < from.size() && to.find('.') < to.size() && from.find('e') > from.size() &&
-                        to.find('e') > to.size();
+  const bool decimals = from.find('.') < from.size() && to.find('.') < to.size() && !is_scientific(from);
   while (decimals && ends_with('0')) from.pop_back(), to.pop_back();
   if (decimals && ends_with('.')) from.pop_back(), to.pop_back();
   return text(from, to);

@@ -86,7 +86,10 @@ TEST(Ranges, HaveEndsOfOnePlace) {
   EXPECT_EQ(range_text(20, 200), "20 … 200");
   EXPECT_EQ(range_text(-17.64, 2), "-17.64 … 2.00");
   EXPECT_EQ(range_text(99.4, 99.997), "99.4 … 100.0");
-  EXPECT_EQ(range_text(0, 0.3), "0.0 … 0.3");
+  EXPECT_EQ(range_text(0, 0.3), "0 … 0.3");
+  EXPECT_EQ(range_text(0, 218.1), "0 … 218.1");
+  EXPECT_EQ(range_text(-218.1, 0), "-218.1 … 0");
+  EXPECT_EQ(range_text(1e-5, 5.4142e-4), "1e-05 … 0.0005414");
   EXPECT_EQ(range_text(12345.6, 23456.7), "12350 … 23460");
   EXPECT_EQ(range_text(0.1234, 350.1), "0.1234 … 350.1");
   EXPECT_EQ(range_text(1.23456e-6, 2e-6), "1.235e-06 … 2.000e-06");
