@@ -183,10 +183,10 @@ GearPair solve_gear_pair(const GearPairData& data) {
     p.centre_distance = p.reference_centre_distance * std::cos(transverse_angle_of(data)) / std::cos(p.working_angle);
     p.mating_shift_sum = p.shift_sum;
   }
-  // k = (a_w − a)/m_n − Σx keeps the clearance; tips are never lengthened.
-  if (data.shorten_tips && !p.internal())
-    p.tip_shortening =
-        std::min(0.0, (p.centre_distance - p.reference_centre_distance) / data.module - p.mating_shift_sum);
+  // k = (a_w − a)/m_n − Σx keeps the clearance; tips are never lengthened, and what rounding leaves is none.
+  constexpr double rounding = 1e-12;
+  const double kept = (p.centre_distance - p.reference_centre_distance) / data.module - p.mating_shift_sum;
+  if (data.shorten_tips && !p.internal() && kept < -rounding) p.tip_shortening = kept;
   for (const int i : {0, 1}) {
     p.wheel[at(i)] = wheel_of(p, i, shift[at(i)]);
     p.wheel[at(i)].working_diameter = p.wheel[at(i)].base_diameter / std::cos(p.working_angle);
