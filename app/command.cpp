@@ -106,16 +106,18 @@ void refuse_empty_values(CLI::App& app) {
 // The words of the command line, the last one first; a range behind an option of two values is two: "20..200 rpm".
 std::vector<std::string> words_of(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> words;
+  const CLI::App* command = nullptr;  // the first word that names one
   const auto is_of_two = [&](const std::string& name) {
-    const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
-    return std::any_of(commands.begin(), commands.end(), [&](const CLI::App* command) {
-      const CLI::Option* const option = command->get_option_no_throw(name);
-      return option && option->get_items_expected_min() == 2;
-    });
+    const CLI::Option* const option = command ? command->get_option_no_throw(name) : nullptr;
+    return option && option->get_items_expected_min() == 2;
   };
   bool of_two = false;  // the word before is such an option
   for (int i = 1; i < argc; ++i) {
     std::string word = argv[i];
+    if (!command) {
+      const auto named = app.get_subcommands([&](const CLI::App* c) { return c->get_name() == word; });
+      if (!named.empty()) command = named.front();
+    }
     if (const std::size_t equals = word.find('='); word.starts_with("--") && equals != std::string::npos)
       if (const std::string name = word.substr(0, equals); is_of_two(name)) {
         words.push_back(name);
