@@ -146,7 +146,7 @@ constexpr struct {
              {"forces", agreement::Topic::crank_torque}, {"forces", agreement::Topic::reactions},
              {"advise", agreement::Topic::advice}};
 
-// The same reason of several components counts as one: names and numbers are left out of the comparison.
+// The same reason of several components counts as one: names and numbers are omitted from the comparison.
 std::string reason_of(const std::string& words) {
   std::string plain;
   bool quoted = false;
@@ -193,7 +193,7 @@ std::string markdown(const Table& table) {
   return text + "\n";
 }
 
-// Per topic: how many agree, are told, refused, silent.
+// Per topic: how many agree, are stated, refused, silent.
 Table counts_of(const Half& half, const std::vector<Row>& rows) {
   Table table{.title = "cells of each topic", .columns = {"topic", "agree", "stated", "refused", "silent"}, .rows = {}};
   for (std::size_t t = half.begin; t < half.end; ++t) {

@@ -79,7 +79,7 @@ void rates_of_sweeps(BenchBook& book, const std::string& program);
 // forces, advise. Writes FOLDER/agreement.md or agreement_of_vibrations.md, too. Throws std::invalid_argument in words.
 void agreement_of_verbs(BenchBook& book, int half, const std::string& only, int jobs, const std::string& folder);
 // Families or cases whose names hold `only` ("": all), with at most this much processor time an integration [s];
-// heavy ones take what they ask for.
+// heavy ones take what they need.
 void hard_cases(BenchBook& book, const std::string& only, double budget);
 
 }  // namespace kurbel::bench

@@ -11,7 +11,7 @@
 namespace kurbel::bench {
 namespace {
 
-// What joint friction costs a whole run: its own evaluations, and the steps that it asks for.
+// What joint friction costs a whole run: its own evaluations, and the steps that it requires.
 Table cost_of_joint_friction(const std::string& counter) {
   Table table{.title = "Instructions of a bare run at 1e-7, joint friction on : off, counted by callgrind",
               .columns = {"scene", "method", "off", "on", "on : off"},

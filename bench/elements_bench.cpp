@@ -131,7 +131,7 @@ std::vector<double> state_of(Equations& equations) {
   return equations.state_of(0, 0, twists, speeds);
 }
 
-// Least time of one call over several rounds [ns].
+// Least time of one call over several repetitions [ns].
 template <class Call>
 double nanoseconds(Call call) {
   double least = HUGE_VAL;

@@ -1,4 +1,4 @@
-// hard_bench.cpp — do the hard cases end right? Every case with every method at every accuracy asked for, as a matrix.
+// hard_bench.cpp — do the hard cases end right? Every case with every method at every requested accuracy, as a matrix.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -186,7 +186,7 @@ std::vector<std::string> families_of(const std::vector<CaseMatrix>& matrices) {
   return names;
 }
 
-// By family: cells, verdicts, the worst ratio of error to what was asked for (and the condition) among those that
+// By family: cells, verdicts, the worst ratio of error to the requested accuracy (and the condition) among those that
 // passed.
 Table summary(const std::vector<CaseMatrix>& matrices) {
   Table table{.title = "Hard cases: every case with every method at accuracies of 1e-3 … 1e-10",

@@ -28,8 +28,8 @@ inline constexpr const char* instrumented_from = "";
 
 inline bool callgrind_is_installed() { return std::system("valgrind --version > /dev/null 2>&1") == 0; }
 
-// Sum over the functions of one program in a callgrind file. The C library's part is left out: what it takes to clear
-// memory hangs on where that memory lies.
+// Sum over the functions of one program in a callgrind file. The C library's part is omitted: what it takes to clear
+// memory depends on where that memory lies.
 inline long own_instructions(const std::filesystem::path& file, const std::string& program) {
   std::ifstream in(file);
   std::map<std::string, std::string> objects;  // "(3)": path

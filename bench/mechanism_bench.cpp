@@ -43,7 +43,7 @@ double seconds() {
 
 volatile double sink;
 
-// Nanoseconds a call of f(φ) → {value, slope} over random angles, best of several rounds.
+// Nanoseconds a call of f(φ) → {value, slope} over random angles, best of several repetitions.
 template <class F>
 double nanoseconds(F&& f) {
   std::mt19937 random(1);
@@ -83,7 +83,7 @@ double latency(F&& f) {
   return best;
 }
 
-// Microseconds of one Simbody sample, best of several rounds.
+// Microseconds of one Simbody sample, best of several repetitions.
 double extraction_microseconds(const SliderCrankData& d) {
   const auto bodies = make_bodies(d);
   double best = 1e9;

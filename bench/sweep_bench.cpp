@@ -53,7 +53,7 @@ std::string six_inertias() {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// One machine, its design, what is asked of it, at errors measured.
+// One machine, its design, the figures required of it, at errors measured.
 struct Campaign {
   explicit Campaign(const SweptMachine& m) : machine(m) {
     question.text = m.text, question.file = "bench.toml";

@@ -1,4 +1,4 @@
-// studies.cpp — the questions by name: asked of a machine, with their findings.
+// studies.cpp — the questions by name: put to a machine, with their findings.
 #include <algorithm>
 #include <stdexcept>
 

@@ -1,14 +1,14 @@
 // shaft_rating.h — allowable loads of a coupling; allowable torsional stress of a shaft by its manufacturer, Goodman and
 // IACS UR M68.
 //
-//     maker:    τ_a ≤ τ_allowable                                      τ_a = (τ_max − τ_min)/2,  τ_m = (τ_max + τ_min)/2
-//     Goodman:  S (K_f τ_a + τ_W |τ_m|/τ_B) ≤ τ_W                      τ_B = 0.67 σ_B
-//     yield:    S |τ|_max ≤ τ_S                                        τ_S = 0.577 σ_S
-//     UR M68:   τ_C = (σ_B + 160)/18 · c_K c_D (3 − 2 λ²)              λ < 0.9; λ: speed over rated speed
-//               τ_C = (σ_B + 160)/18 · c_K c_D · 1.38                  0.9 ≤ λ < 1.05
-//               τ_T = 1.7 τ_C/√c_K                                     while a barred range is passed
-//               16 n_c/(18 − λ_c) ≤ n ≤ (18 − λ_c) n_c/16              barred around a resonance, λ_c < 0.8
-//               c_D = 0.35 + 0.93 d^−0.2                               stresses in N/mm², d in mm      (theory 12.14 … 12.16)
+//  manufacturer: τ_a ≤ τ_allowable                               τ_a = (τ_max − τ_min)/2,  τ_m = (τ_max + τ_min)/2
+//  Goodman:      S (K_f τ_a + τ_W |τ_m|/τ_B) ≤ τ_W               τ_B = 0.67 σ_B
+//  yield:        S |τ|_max ≤ τ_S                                 τ_S = 0.577 σ_S
+//  UR M68:       τ_C = (σ_B + 160)/18 · c_K c_D (3 − 2 λ²)       λ < 0.9; λ: speed over rated speed
+//                τ_C = (σ_B + 160)/18 · c_K c_D · 1.38           0.9 ≤ λ < 1.05
+//                τ_T = 1.7 τ_C/√c_K                              while a barred range is passed
+//                16 n_c/(18 − λ_c) ≤ n ≤ (18 − λ_c) n_c/16       barred around a resonance, λ_c < 0.8
+//                c_D = 0.35 + 0.93 d^−0.2                        stresses in N/mm², d in mm  (theory 12.14 … 12.16)
 // UR M68 applies to intermediate, thrust, propeller and stern tube shafts. It expressly excludes crankshafts and the
 // shafts of gears, motors, generators and turbines.
 #pragma once

@@ -79,7 +79,7 @@ InternalFillet fillet_of(const GearWheel& w, double rounding) {
   return f;
 }
 
-// The rounding asked for, or the largest that the space has room for.
+// The requested rounding, or the largest that fits the space.
 InternalFillet internal_fillet(const GearWheel& w) {
   const double base = -0.5 * w.base_diameter, root = -0.5 * w.root_diameter, tip = -0.5 * w.tip_diameter;
   const auto fits = [&](double rounding) {
@@ -126,7 +126,7 @@ std::vector<FlankPoint> half_internal(const GearWheel& w, int n) {
   const double pitch = pi / -w.teeth, root = -0.5 * w.root_diameter, base = -0.5 * w.base_diameter;
   std::vector<FlankPoint> flank;
   for (int i = 0; i < n; ++i) flank.push_back({root, pitch - f.centre_angle * i / n});
-  // From straight outwards round to the normal of the involute, which is a tangent of the base circle.
+  // From straight outwards to the normal of the involute, which is a tangent of the base circle.
   const double swept = pi / 2 - std::acos(std::min(1.0, base / f.centre_radius));
   for (int i = 0; i < n; ++i) {
     const double turn = swept * i / n;  // from the radius through the centre

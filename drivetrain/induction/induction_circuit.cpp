@@ -39,7 +39,7 @@ InductionMotor EquivalentCircuit::characteristic(double rated_torque) const {
           rated_torque > 0 ? rated_torque : 0.5 * breakdown};
 }
 
-// a s_b = R/√(R² + X²) hangs on R_s/X_s alone and grows with it; then R_r follows from s_b, the level of all from M_b.
+// a s_b = R/√(R² + X²) depends on R_s/X_s alone and grows with it; then R_r follows from s_b, the level from M_b.
 EquivalentCircuit EquivalentCircuit::of(const InductionMotor& wanted, double frequency, double magnetising_ratio) {
   EquivalentCircuit c{
       .voltage = 400,

@@ -33,7 +33,7 @@ struct RheostatStages {
   static constexpr int most_own = 4;  // modes of a motor
   struct Mode {
     int stage = 0, own = 0;
-    bool past_peak = false, announced = false;  // told: the last event was a change of stage
+    bool past_peak = false, announced = false;  // announced: the last event was a change of stage
   };
   static Mode unpacked(int mode) {
     return {mode / (4 * most_own), mode / 4 % most_own, (mode & 2) != 0, (mode & 1) != 0};

@@ -28,7 +28,7 @@ struct Slide {
   double start = 0;       // [m]
 };
 
-// Does nothing but tell: no torque, no event, no state.
+// Reports only: no torque, no event, no state.
 class SlideChannels final : public ElementPool {
  public:
   void add(const Slide& slide, const ShaftPorts& ports, bool counts) {
@@ -147,7 +147,7 @@ void put_slide(const SlideKeys& s, const std::string& name, int node, double k, 
   net.nodes[static_cast<std::size_t>(node)].inertia += s.mass * k * k;
   const double weight = s.mass * s.gravity, along = k * weight * std::sin(s.inclination);
   const double across = k * s.friction * weight * std::cos(s.inclination);
-  put(SlideWeight{along});  // also where it is nothing: somebody must tell of the motion
+  put(SlideWeight{along});  // also where it is nothing: one element must report the motion
   if (across > 0) put(SlideFriction{across});
   const double viscous = s.viscous * k * k, quadratic = s.quadratic * k * k * k;
   if (s.always_backwards || s.force == 0) {

@@ -10,7 +10,7 @@ namespace kurbel {
 
 // Guards of a law given by a curve over a quantity q: positive while q lies in the piece given by the mode.
 //
-// The modes of a periodic law number the pieces of all its periods that are told apart (Curve::over_angle).
+// The modes of a periodic law number the pieces of all its periods that are distinguished (Curve::over_angle).
 struct PieceGuard {
   struct Place {
     int piece;  // of the curve

@@ -15,8 +15,8 @@
 namespace kurbel {
 namespace {
 
-// A universal joint's θ = φ_a − φ_b swings by degrees whatever its spring carries: no step can hold it more exactly
-// than it is rounded.
+// A universal joint's θ = φ_a − φ_b oscillates by degrees whatever its spring carries: no step can hold it more
+// exactly than it is rounded.
 double twist_scale(const Model& m, const ElasticJoint& elastic, double tolerance) {
   const Network::Joint& joint = m.network.joints[at(elastic.joint)];
   if (!joint.element || !joint.element->is.uses_angle) return elastic.twist_scale;

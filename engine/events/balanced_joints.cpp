@@ -92,7 +92,7 @@ std::vector<double> balanced_joints(const Model& m, std::vector<double> need, st
   for (std::size_t n = 0; n < net.nodes.size(); ++n)
     if (net.nodes[n].prescribed >= 0 && m.node_ratio[n] != 0) root = static_cast<int>(n);
   sum_to(root);
-  // Housings bear the reactions of their gears, towards the frame.
+  // The housings carry the reactions of their gears, towards the frame.
   for (std::size_t r = 0; r < net.relations.size(); ++r)
     if (net.relations[r].members() == 3)
       need[at(net.relations[r].node[2])] += net.relations[r].gain[2] * torque[net.joints.size() + r];

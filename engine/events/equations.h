@@ -50,7 +50,7 @@ class Equations final : public Flow {
   // Gives the owners of these guards a law without events, permanently. Returns a description; empty: none has such a law.
   std::string regularise(const std::vector<std::size_t>& guards);
   std::string guard_owner(std::size_t guard) const;
-  // A point between two pieces of a law, as of a table or a formula, that nothing tells of.
+  // A point between two pieces of a law, as of a table or a formula, that no event reports.
   bool is_knot(std::size_t guard) const;
   // For a motion that cannot continue (Contacts::stop_jam). False: nothing there moves.
   bool stop_jam(double t, std::span<double> y, const std::vector<std::size_t>& guards, EventLog& log);

@@ -54,7 +54,7 @@ void OperatingSequence::arm(Modes& modes, double t, std::span<const double> y) c
   const Sequence& sequence = model_->scene.sequence;
   modes.armed_time = never;
   if (modes.next_step >= sequence.steps.size()) return;
-  if (sequence.every > 0 && modes.next_step == 0 && modes.cycle_began < never) {  // the clock begins the next round
+  if (sequence.every > 0 && modes.next_step == 0 && modes.cycle_began < never) {  // the clock begins the next cycle
     modes.armed_time = std::max(t, modes.cycle_began + sequence.every);
     return;
   }

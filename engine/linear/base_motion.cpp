@@ -105,7 +105,7 @@ void BaseMotion::choose_positions() {
   int stride = turns_ ? static_cast<int>(golden * n) : 1;  // every time once, in another order than the angles
   while (std::gcd(stride, n) != 1) ++stride;
   for (int i = 0; i < n; ++i) {
-    const double share = (i + 0.5) / n;  // off the round angles of load edges
+    const double share = (i + 0.5) / n;  // off whole degrees, where edges of loads lie
     const auto turn = static_cast<int>(static_cast<long>(i) * stride % n);
     positions_.push_back({turns_ ? share * cycle_ : 0, (turn + 0.5) / n * time_period_});
   }

@@ -1,4 +1,4 @@
-// periodic_schur.cpp — periodic QR: one factor Hessenberg, the others triangular, rotations chased round all of them.
+// periodic_schur.cpp — periodic QR: one factor Hessenberg, the others triangular, rotations chased through all of them.
 #include "engine/matrices/periodic_schur.h"
 
 #include <algorithm>
@@ -150,7 +150,7 @@ class Iteration {
         chase(i);
       }
   }
-  // After a turn of section 1: through the triangular factors round to section 0.
+  // After a rotation of section 1: through the triangular factors back to section 0.
   void chase(Index i) {
     for (std::size_t k = 1; k < count_; ++k) {
       turn(k + 1, i, making_zero_below(a_[k](i, i), a_[k](i + 1, i)));
@@ -236,7 +236,7 @@ class Iteration {
   Index n_;
 };
 
-// d_k x_k − e_k x_{k+1} = −b_k round a circle, by rotations of the last row against each other.
+// d_k x_k − e_k x_{k+1} = −b_k with cyclic k, by rotations of the last row against each other.
 std::vector<Complex> solve_circle(std::vector<Complex> d, const std::vector<Complex>& e, std::vector<Complex> b) {
   const std::size_t n = d.size();
   for (Complex& value : b) value = -value;
@@ -354,7 +354,7 @@ std::vector<VectorXcd> PeriodicSchur::left(Index j) const {
   for (VectorXcd& v : u) v[j] = 1;
   std::vector<Complex> d(n), e(n), b(n);
   for (Index i = j + 1; i < size; ++i) {
-    // Backwards round the circle: w_m = u of section K − m, so that d w_m − e w_{m+1} = −b with factor K − 1 − m.
+    // Backwards through the cycle: w_m = u of section K − m, so that d w_m − e w_{m+1} = −b with factor K − 1 − m.
     for (std::size_t m = 0; m < n; ++m) {
       const MatrixXcd& t = triangular_[n - 1 - m];
       const VectorXcd& next = u[(n - m) % n];

@@ -36,7 +36,7 @@ class Curve {
   // a formula is unchanged, as are parts that fewer pieces do not approximate.
   Curve by_fewer_pieces(double within) const;
 
-  // The same law of an angle that is known without whole double turns: its pieces are told apart within two turns, so that
+  // The same law of an angle known without whole double turns: its pieces are distinguished within two turns, so that
   // no step leads from a piece to the same one a period later; one longer than three quarters of two turns becomes two.
   Curve over_angle() const;
 
@@ -56,7 +56,7 @@ class Curve {
   Form form() const { return form_; }
   double period() const { return period_; }
   int pieces() const { return static_cast<int>(x_.size()) - 1; }
-  int periods() const { return periods_; }        // whose pieces are told apart
+  int periods() const { return periods_; }        // whose pieces are distinguished
   bool is_seamless() const { return seamless_; }  // one piece that goes on without a kink a period later
   const std::vector<double>& x() const { return x_; }
   const std::vector<double>& y() const { return y_; }  // at x, after a jump

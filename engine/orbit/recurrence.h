@@ -20,8 +20,8 @@ struct RecentEvents {
 // cycle.
 std::vector<double> times_of_last_kind(const std::vector<Event>& events, const Model& m);
 
-// Whether a time is whole periods of the laws over time, to a part in 10⁶. The motion of a sequence that repeats by itself repeats
-// after such a time alone; other motions are looked at each period of the laws, and here at what is none.
+// Whether a time is whole periods of the laws over time, to a part in 10⁶. The motion of a sequence that repeats by
+// itself repeats after such a time alone; other motions are examined at each period of the laws, and here at others.
 bool is_whole(double time, double period);
 
 // Middle [s] of the widest gap between the events of the period that ends at `last`; none: no event is in it.

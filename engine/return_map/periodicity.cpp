@@ -87,7 +87,7 @@ Periodicity periodicity_of(const Model& m) {
     if (given.amplitude != 0) times.push_back({1 / std::abs(given.frequency), name});
     if (given.period() > 0) times.push_back({given.period(), name});
     result.clocked = !times.empty();
-    // In the mean nothing turns at a speed of 0: what reads an angle sees one place of its cycle.
+    // On average nothing turns at a speed of 0: what depends on an angle sees one place of its cycle.
     if (link_speed > 0 && (result.angle_matters || times.empty())) times.push_back({result.angle / link_speed, name});
     result.settled_from = std::max(result.settled_from, given.settled_from());
   }

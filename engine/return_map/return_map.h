@@ -129,7 +129,7 @@ struct SteadyPoint {
   Eigen::MatrixXd derivative;
   std::vector<std::complex<double>> multipliers;  // largest first
   double multiplier_error = 0;                    // of the largest, by the error of the derivative
-  // Estimated remaining change of z by integration, or where round-off ends Newton's method. Empty: less than asked for.
+  // Estimated remaining change of z by integration, or where round-off ends Newton's method. Empty: less than required.
   Eigen::VectorXd to_come;
   double time = 0;                   // of one period [s]
   double turned = 0;                 // rotation of the link in it [rad]

@@ -182,14 +182,14 @@ class RigidMachine::EdgeSearch {
   };
 
   void visit_one_period() {
-    // Starts away from round angles, which are often edges.
+    // Starts off whole degrees, where edges often lie.
     const double cell = turn / cells_a_turn, range = sign_ > 0 ? machine_.begin_ : -machine_.begin_ - machine_.cycle_,
                  begin = machine_.has_range_ ? range : -0.37 * cell, end = begin + machine_.cycle_;
     machine_.set_modes(sign_ * begin, sign_);
     double here = begin, looked = ahead;
     while (here < end) {
       Deadline::check();
-      // One grid for the whole cycle, so that cells avoid round angles also after an edge.
+      // One grid for the whole cycle, so that cells avoid whole degrees also after an edge.
       const double to = std::min(begin + cell * (std::floor((here - begin) / cell + 1e-6) + 1), end);
       const Fall fall = first_fall(here, to);
       if (fall.s == nowhere) {

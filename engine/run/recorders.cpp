@@ -149,7 +149,7 @@ void ExtremeRecorder::learn_steepness(std::size_t i) {
 // two zeros by 1/(2π) of h (|slope| + |slope|); the limit used is some seven times as large. A law
 // rises by its argument's; twice as steeply as it did between samples, for one that is steeper between them. A value
 // without slopes has the mean ones of this step and of the one before: infinite where it begins anew. Those of a wave that
-// all steps meet at the same phase are none: it may exceed the ends by a quarter more than it did when it was looked at.
+// all steps meet at the same phase are none: it may exceed the ends by a quarter more than when it was examined.
 bool ExtremeRecorder::may_be_beaten(std::size_t i) const {
   const double h = last_.t - first_.t, first = first_.slope[i], last = last_.slope[i];
   double reach = h * (std::abs(first) + std::abs(last));
@@ -317,7 +317,7 @@ void CycleRecorder::step(StepView& view) {
   const double gain = m.angles[tracked].gain;
   double from = view.t_previous();
   // The speed's slope is that of the steps' dense output, whose extremes are sought: at its ends what the stepper knows,
-  // between them by differences. Only a speed that is given is asked of the equations.
+  // between them by differences. Only a prescribed speed is computed by the equations.
   const bool free = at(shaft) < m.free_shafts;
   const std::size_t state = free ? equations.speed_index(shaft) : 0;
   const auto speed = [&](double time) {

@@ -23,7 +23,7 @@ const std::array<double, BandHistory::points>& chebyshev() {
   return made;
 }
 
-// Minima that differ by less are the same one come again: the later one counts.
+// Minima that differ by less are one minimum that repeats: the later one counts.
 constexpr double same_extreme = 1e-9;
 // Of the golden section, to 3e-6 of two points' distance: round-off hides nearer ones from each other.
 constexpr int extreme_steps = 26;
@@ -225,7 +225,7 @@ bool SpeedRecorder::stays_away(StepView& view) const {
   });
 }
 
-// Stands for all between, as no level lies there that is asked for.
+// Stands for all between, as no requested level lies there.
 BandHistory::Stretch SpeedRecorder::ends_of(StepView& view) const {
   BandHistory::Stretch s{.begin = view.t_previous(), .end = view.t()};
   const double first = speed_at(view, s.begin), last = speed_at(view, s.end);

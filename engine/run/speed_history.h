@@ -5,7 +5,7 @@
 // increasing towards the end. The same for maxima. In steady motion stretches replace earlier ones, so that the memory
 // grows with run-up and drift, by a few stretches per cycle at most, not with the length of the run. Each stretch is the
 // dense output of the solver over one step, as the polynomial through nine Chebyshev points. A run that repeats another one
-// knows about which levels it will be asked for: steps that stay away from them are kept by their ends.
+// knows roughly which levels will be requested: steps that stay away from them are kept by their ends.
 #pragma once
 
 #include <algorithm>
@@ -70,7 +70,7 @@ struct LastSpeeds {
 // it holds. That event is the first hold of the link after its speed was last above 1 %; the speed is below 0.1 % for good
 // by then. A constant deceleration takes a ninth of the time between these two for the rest of the way. With α = a + b ω it
 // takes at most ln 2/ln(11/2) of that time where friction is the greater part at 0.1 %, b ω ≤ a; else the machine was slow
-// before it was stopped. A hold before the last 0.1 % ends a swing, and no motion.
+// before it was stopped. A hold before the last 0.1 % ends an oscillation, and no motion.
 // Null: the machine rests when it is slow. The link is held by its own shaft's contact, by losses of a gear of two shafts on
 // it, or by a hold elsewhere that ends its motion: from a billionth to zero takes 11e-6/9 of the time between 1 % and 0.1 %
 // at most.
@@ -119,7 +119,7 @@ class SpeedRecorder final : public Observer {
   // Angles including full turns [rad] at multiples of interval() from the start; only for machines without a cycle.
   const std::vector<double>& angles() const { return angles_; }
   std::vector<double> asked() const;
-  // All levels asked for are near those that the run before was asked for; else this run is to be repeated without it.
+  // All requested levels are near those requested in the run before; else this run is to be repeated without it.
   bool answered() const;
   double interval() const { return until_ / grid; }
 

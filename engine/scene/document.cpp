@@ -163,7 +163,7 @@ namespace {
 // are found before it reads: the place and the reason, or line 0.
 Message unfit_for_toml(const std::string& text, const std::string& file) {
   constexpr int most_dots = 8;
-  Location at{1, 0};  // of the character that is looked at
+  Location at{1, 0};  // of the character that is examined
   int dots = 0;
   std::string quote;
   const std::size_t byte_order_mark = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;

@@ -34,7 +34,7 @@ bool is_obeyed(char32_t c) {
          (c >= 0x2066 && c <= 0x2069);
 }
 
-// The text with what a terminal may obey put into other words; `shown` is asked for the code, and for the byte where it
+// The text with what a terminal may obey replaced by words, which `shown` gives for the code, and for the byte where it
 // is no UTF-8.
 template <class Shown>
 std::string harmless(std::string_view text, std::string_view kept, const Shown& shown) {

@@ -8,7 +8,7 @@
 namespace kurbel {
 namespace {
 
-// Interior points of the rounds: those of a grid with the smallest error of the next higher power times 1 + the sum of
+// Interior points of each pass: those of a grid with the smallest error of the next higher power times 1 + the sum of
 // the magnitudes by which errors of the slopes enter.
 const std::vector<std::vector<double>> points_of_round = {
     {0.725}, {0.2, 0.8}, {0.15, 0.375, 0.875}, {0.1, 0.3, 0.7, 0.9}};

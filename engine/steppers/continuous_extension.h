@@ -10,8 +10,8 @@
 
 namespace kurbel {
 
-// Appends 1 + 2 + … + rounds stages and the dense output, of local order 4 + rounds, to a table that ends with the
-// slope at the step's end. 1 ≤ rounds ≤ 4.
+// Appends 1 + 2 + … + n stages, n ≤ 4 the number of passes, and the dense output, of local order 4 + n, to a table that
+// ends with the slope at the step's end.
 EmbeddedTable with_continuous_extension(EmbeddedTable table, int rounds);
 
 }  // namespace kurbel

@@ -43,7 +43,7 @@ class EsdirkStepper final : public SundialsStepper {
 };
 
 // The library's own test, but for corrections within the round-off of their state: there the iteration has found what
-// there is to find. The twist across a gap is counted from mid-gap, and a stiff flank asks for less than its last
+// there is to find. The twist across a gap is counted from mid-gap, and a stiff flank requires less than its last
 // digit.
 int EsdirkStepper::converged(SUNNonlinearSolver newton, N_Vector, N_Vector correction, double part, N_Vector weights,
                              void* self) noexcept {
@@ -84,7 +84,7 @@ EsdirkStepper::EsdirkStepper(int order, OdeSystem& system, const ErrorControl& c
   newton_.reset(made(SUNNonlinSol_Newton(state_.get(), context_.get()), "Newton iteration"));
   must(ARKStepSetNonlinearSolver(m, newton_.get()), "use Newton's iteration");
   must(SUNNonlinSolSetConvTestFn(newton_.get(), converged, this), "take the test of convergence");
-  // No more than a cubic between the steps: a quartic asks for slopes there, where hλ multiplies what is left over.
+  // No more than a cubic between the steps: a quartic needs slopes there, where hλ multiplies what is left over.
   must(ARKStepSetInterpolantDegree(m, 3), "interpolate by cubics");
   must(ARKStepSetLinearSolver(m, linear_solver_.get(), matrix_.get()), "use KLU");
   must(ARKStepSetLinSysFn(m, [](double t, N_Vector y, N_Vector, SUNMatrix a, SUNMatrix, int reuse, int* is_new,
@@ -136,7 +136,7 @@ int EsdirkStepper::shorten_to(double t) {
   return flag < 0 ? flag : back;
 }
 
-// The library's cubic, by its slopes at both ends: asked for them once in a step, it is evaluated here state by state.
+// The library's cubic, by its slopes at both ends: read once in a step, it is evaluated here state by state.
 void EsdirkStepper::prepare_dense_output() {
   if (std::exchange(dense_is_ready_, true)) return;
   for (auto [t, slope] : {std::pair{t_previous_, &slope_begin_}, std::pair{t_, &slope_end_}}) {

@@ -14,7 +14,7 @@
 namespace kurbel {
 namespace {
 
-// Measured on a slider-crank, whose local error swings with every turn: with 0.85 and a little proportional control
+// Measured on a slider-crank, whose local error varies over every turn: with 0.85 and a little proportional control
 // both methods reject 1…4 % of the steps on average; the customary 0.9 without it rejects 40 % for order 8 and costs 10
 // % more.
 constexpr double safety = 0.85;
@@ -332,7 +332,7 @@ DensePlace ExplicitRungeKutta::place_of(double t) const {
   return {h, x, 1 - x};
 }
 
-// Of one state alone: what watches the speed of a link asks for no more in most steps.
+// Of one state alone: an observer of the speed of a link needs no more in most steps.
 const std::array<double, 4>& ExplicitRungeKutta::dense_of(std::size_t state) {
   prepare_dense_stages();
   if (std::exchange(dense_state_, state) == state) return dense_of_;

@@ -298,7 +298,7 @@ int SundialsStepper::newton_matrix(double t, N_Vector y, SUNMatrix matrix, bool 
   return 0;
 }
 
-// Less than some round-off of a state is not asked for: the library refuses, or cuts its steps for ever. Works grow far
+// Less than some round-off of a state is not requested: the library refuses, or cuts its steps for ever. Works grow far
 // beyond the torques that their tolerance is made of.
 int SundialsStepper::error_weights(N_Vector y, N_Vector weights, void* self) noexcept {
   const auto& weight = static_cast<SundialsStepper*>(self)->weight_;

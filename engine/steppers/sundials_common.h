@@ -23,7 +23,7 @@ namespace kurbel {
 
 inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
 inline constexpr int most_failures_in_a_step = 25;  // each divides the step by about 4: limit before round-off
-inline constexpr long most_steps_in_a_call = 100;   // one is asked for
+inline constexpr long most_steps_in_a_call = 100;   // one is requested
 
 // --- owning handles of the library ---
 

@@ -1,7 +1,7 @@
 // mat_text.h — a MAT file as text: a heading of its variables' names, then one line per row, cells separated by tabs.
 //
 // Version 5 ("MAT-File Format", The MathWorks), as save -v6 (plain) and -v7 (compressed) write it, in either order of bytes.
-// A vector is a column; of a matrix m those of the file: m_1, m_2, …; single numbers, words and structures are left out. Of
+// A vector is a column; of a matrix m those of the file: m_1, m_2, …; single numbers, words, structures are omitted. Of
 // results in Modelica's layout (Aclass, name, dataInfo, data_2) the quantities over the abscissa are the columns, with units.
 #pragma once
 

@@ -51,7 +51,7 @@ class TableFile {
   std::vector<std::string> names() const;
 
   // Columns by their numbers from 1. Rows in which all of them are empty are skipped; faulty cells go into `messages`.
-  // With `incomplete` rows that lack one of the numbers ("", "NaN", "---", "n/a") are left out, too, and counted there.
+  // With `incomplete` rows that lack one of the numbers ("", "NaN", "---", "n/a") are omitted, too, and counted there.
   TableNumbers numbers(const std::vector<int>& columns, Messages& messages, std::size_t* incomplete = nullptr) const;
   // All rows below the headings, one cell for each heading. Throws SceneError for a row with more cells and, unless cells
   // may be empty, with fewer or empty cells.

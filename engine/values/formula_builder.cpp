@@ -139,7 +139,7 @@ FormulaBuilder::Term FormulaBuilder::direction(const Term& y, const Term& x, con
   const auto magnitude = [&](const Term& t) {
     return choose(t, t, one(FormulaOp::negate, t, t.dimension, column), t.dimension, column);
   };
-  // What hangs on constants is computed where it is read: only on the side that is taken.
+  // What depends on constants is computed where it is read: only on the side that is taken.
   const auto either = [&](const Term& asked, const auto& yes, const auto& no) {
     if (failed_) return Term{};
     if (constant(asked)) return of(asked).number >= 0 ? yes() : no();

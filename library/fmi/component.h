@@ -37,7 +37,7 @@ enum Phase : unsigned {
   configuration = 256,
   set_up = instantiated | initialisation,
   running = event_mode | continuous_time | step_mode,
-  to_look = initialisation | running | terminated | failed,  // values may be asked for
+  to_look = initialisation | running | terminated | failed,  // values may be requested
   anywhere = 511
 };
 inline const char* name_of(unsigned phase) {

@@ -88,7 +88,7 @@ void ARKodeButcherTable_Space(ARKodeButcherTable table, sunindextype* integers, 
 }
 void ARKodeButcherTable_Write(ARKodeButcherTable, std::FILE*) {}
 
-// --- roots, which the run looks for; dense and banded matrices; sensitivities; messages: none is asked for ---
+// --- roots, which the run looks for; dense and banded matrices; sensitivities; messages: none is requested ---
 
 int arkRootInit(void*, int, void*) { return -1; }
 int arkRootFree(void*) { return 0; }

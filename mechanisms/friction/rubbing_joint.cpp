@@ -1,4 +1,4 @@
-// rubbing_joint.cpp — the domain of a joint's friction data; laws of friction made when they are first asked for.
+// rubbing_joint.cpp — the domain of a joint's friction data; laws of friction made when they are first requested.
 #include <fmt/format.h>
 
 #include <cmath>

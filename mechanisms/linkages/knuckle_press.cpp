@@ -29,7 +29,7 @@ Range knee_heights(const KnucklePressData& d) {
   return {d.bearing_y + d.upper * sine.least, d.bearing_y + d.upper * sine.greatest};
 }
 
-// Way of the ram, by angles of the crank that lie close enough to tell a ram that works from one that stands still.
+// Way of the ram, by angles of the crank close enough to distinguish a ram that works from one that stands still.
 double stroke_of(const KnucklePressData& d) {
   constexpr int angles = 32;
   long double least = std::numeric_limits<long double>::infinity(), greatest = -least;

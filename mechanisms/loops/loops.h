@@ -74,7 +74,7 @@ struct SlotLoop {
   bool changes() const { return same_length(r, d); }  // at φ = 0: the pin passes over D
 };
 struct Slot {
-  Direction along;  // from D to the pin, or opposite after the pin has passed over D
+  Direction along;  // from D to the pin, or opposite after the pin has crossed D
   Taylor reach;     // coordinate of the pin along it [m]
 };
 Slot slot_to_pin(const SlotLoop& loop, long double phi);

@@ -7,7 +7,7 @@
 namespace kurbel {
 namespace {
 
-// Made when they are first asked for: a scene that is only checked needs none.
+// Made when they are first requested: a scene that is only checked needs none.
 class LateBodies final : public MechanismBodies {
  public:
   explicit LateBodies(std::function<std::unique_ptr<MechanismBodies>()> make) : make_(std::move(make)) {}

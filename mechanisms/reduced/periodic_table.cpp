@@ -179,7 +179,7 @@ class TableBuilder {
     return error < may_be_noise && error > hardly_fallen * *std::max_element(piece.before.begin(), piece.before.end());
   }
 
-  // Keeps the good pieces and halves the others while there is room; returns the halves, sibling beside sibling.
+  // Keeps the good pieces and halves the others while there is space; returns the halves, sibling beside sibling.
   std::vector<Piece> split_or_keep(std::vector<Piece>& level) {
     std::vector<char> enough(level.size());
     for (std::size_t i = 0; i < level.size(); ++i) enough[i] = good(level[i]) || is_noise(level, i);

@@ -34,7 +34,7 @@ std::vector<ChannelSpec> channel_specs(const ReducedMechanism::NoiseScales& nois
 }
 
 // On an arc the channels grow by orders towards the ends: each counts by itself, and where it passes zero by what it is
-// usually, which the inertia in the middle, the arc and the output tell.
+// usually, which follows from the inertia in the middle, the arc and the output.
 std::vector<ChannelSpec> arc_specs(const ReducedSample& middle, const CrankArc& arc, double reach) {
   using enum ErrorScale;
   const double inertia = middle.inertia / arc.half;
@@ -89,7 +89,7 @@ CacheKey cache_key(const MechanismData& data, double tolerance, std::size_t max_
   return {data.kind(), std::move(values)};
 }
 
-// Tables that were asked for lately. Each is made once, without a lock: who asks for another one does not wait.
+// Tables requested lately. Each is made once, without a lock: a request for another one does not wait.
 class TableCache {
  public:
   using Table = std::shared_ptr<const ReducedMechanism>;

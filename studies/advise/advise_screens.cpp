@@ -15,7 +15,7 @@
 namespace kurbel {
 namespace {
 
-constexpr double near_a_mode = 0.3;    // of the mode's frequency: an order as near as that makes it swing
+constexpr double near_a_mode = 0.3;    // of the mode's frequency: an order as near as that makes it vibrate
 constexpr double part_of_mode = 0.05;  // of its potential energy: a joint with more takes part in it
 constexpr double audible = 0.01;       // of the strongest order: weaker ones excite nothing
 

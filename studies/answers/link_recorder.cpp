@@ -94,7 +94,7 @@ void LinkRecorder::step(StepView& view) {
     after = t, beyond_after = now;
   }
   if (view.t() < late_from_) return;
-  // A swing may have its greatest speeds within steps; a cubic exceeds its ends by at most 4/27 of this.
+  // An oscillation may have its greatest speeds within steps; a cubic exceeds its ends by at most 4/27 of this.
   double reached = std::abs(speed);
   const double duration = view.t() - view.t_previous(), first = view.ydot_previous()[state], last = view.ydot()[state];
   const double beyond_ends = duration * std::abs(link.gain) * (std::abs(first) + std::abs(last));

@@ -37,18 +37,18 @@ class LinkRecorder final : public Observer {
   double turned_at() const { return turned_at_; }              // when it last turned, or the begin [s]
   double began_at() const { return begin_; }                   // the recording [s]
   bool turned() const { return turned_at_ > begin_; }
-  // It has not turned for the last fiftieth of the recorded time up to t, nor for the time between its last two reversals: a swing
-  // stands where it turns.
+  // It has not turned for the last fiftieth of the recorded time up to t, nor for the time between its last two
+  // reversals: an oscillation stands where it turns.
   bool rests(double t) const { return t - turned_at_ > std::max(0.02 * (t - begin_), half_swing_); }
   // In the last quarter of the time it reversed at least twice, and advanced by less than a quarter of the path covered
-  // there or in its last whole swing, which need not fit into that quarter.
+  // there or in its last whole oscillation, which need not fit into that quarter.
   bool swings() const {
     const double swing = last_swing_ + swing_before_last_;
     if (last_swing_ > 0 && std::abs(angle_ - turned_back_) > swing) return false;  // it has left the swing
     return changes_ >= 2 && (std::abs(angle_ - late_begin_) < 0.25 * way_ ||
                              (changes_ > 2 && std::abs(last_swing_ - swing_before_last_) < 0.25 * swing));
   }
-  // It swings, and reached more than a twentieth of its greatest speed in that quarter.
+  // It oscillates, and reached more than a twentieth of its greatest speed in that quarter.
   bool vibrates() const { return swings() && late_fastest_ > 0.05 * fastest_; }
   // It has turned back twice at least, and is between the places of the last two times: these places [rad].
   bool rocks() const { return turns_back_ >= 2 && last_swing().first <= angle_ && angle_ <= last_swing().second; }
@@ -61,7 +61,7 @@ class LinkRecorder final : public Observer {
   std::pair<double, double> last_swing() const { return std::minmax(last_turn_, turn_before_); }
   double fastest() const { return fastest_; }            // |speed| at the end of any step [rad/s]
   double fastest_late() const { return late_fastest_; }  // |speed| in the last quarter of the time [rad/s]
-  // Greatest |speed| since its last reversal but one [rad/s]; 0: it does not swing.
+  // Greatest |speed| since its last reversal but one [rad/s]; 0: it does not oscillate.
   double speed_of_swing() const { return swings() ? std::max(swing_fastest_, swing_before_) : 0; }
   // Extreme angles in that quarter [rad], and frequency of its reversals there [Hz].
   double lowest() const { return low_; }

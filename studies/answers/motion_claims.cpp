@@ -30,7 +30,7 @@ constexpr double slowed = 0.8;            // of a speed: it is being stopped
 constexpr double short_while = 0.02;      // of the time, of a torque
 constexpr double dust = 1e-9;             // of the usual speed: rounding
 constexpr double same_speed = 1e-3;       // of a speed: no other one
-constexpr double gains = 1.3;             // times its speed: one that few cycles tell of grows
+constexpr double gains = 1.3;             // times its speed: one known from few cycles grows
 
 class Judge {
  public:
@@ -67,7 +67,7 @@ class Judge {
   bool is_commanded() const { return !m_.commands.empty(); }
   double drive() const { return driving_torque(equations_, now_, shaft_); }  // on the link [N·m]
   // A motor under more than this part of its rated torque whose shaft is slower than that part of its rated speed: stands;
-  // or that swings with the link.
+  // or that oscillates with the link.
   const MotorTorque* standing_motor(double torque = drives, double slower = stands, bool link_swings = false) const {
     for (const MotorTorque& motor : m_.motors)
       if (!motor.prescribed && std::abs(torque_of(motor)) > torque * motor.rated_torque &&

@@ -14,7 +14,7 @@
 namespace kurbel {
 namespace {
 
-// Something else than rounding moves the shaft until then; it is held by then; or nobody can tell.
+// Something else than rounding moves the shaft until then; it is held by then; or it cannot be decided.
 bool is_moved_before(double time, std::size_t angle, const std::shared_ptr<const Model>& model) try {
   constexpr double moved = 1e-7;  // [rad]
   Equations equations(model, false);

@@ -1,4 +1,4 @@
-// rounding.cpp — digits end at the error, or at the digits asked for.
+// rounding.cpp — digits end at the error, or after the requested number of digits.
 #include "studies/claims/rounding.h"
 
 #include <fmt/format.h>

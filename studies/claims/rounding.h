@@ -4,7 +4,7 @@
 //   0.104382 ± 0.0112      →  "0.104"    "± 0.012"
 //
 // The error is rounded up to one significant digit, to two if the first is a 1. The value ends at the same digit, and
-// its rounding counts as error, so that a value below a third of it is 0; or it ends before, after the digits asked for,
+// its rounding counts as error, so that a value below a third of it is 0; or it ends before, at the requested digits,
 // and the error is that of the computation alone. Unknown error: at most six digits. An error of 0 means exact by
 // construction.
 #pragma once

@@ -22,8 +22,8 @@ std::vector<std::string> beyond_the_rigid_machine(const Scene& scene, const Mome
 // Compiles a scene already as of a moment (as_of), with its sources and loads at that time.
 std::shared_ptr<const Model> compile_at(const Scene& scene, const Effects& effects, const Moment& at);
 
-// Part of its arc, about the middle, over which a crank that rocks is looked at unless another range is given: towards the ends
-// quantities reduced to it grow without bound, as 1/(distance to the end).
+// Part of its arc, about the middle, over which a rocking crank is examined unless another range is given: towards
+// the ends quantities reduced to it grow without bound, as 1/(distance to the end).
 inline constexpr double share_of_arc = 0.95;
 // Angles of the reduction link over which no rocking crank of a model leaves that part of its arc, near the scene's start;
 // empty: all cranks turn fully. Throws std::invalid_argument if a `given` range leaves an arc, or if there is none.

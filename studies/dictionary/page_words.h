@@ -1,6 +1,6 @@
 // page_words.h — what stands on pages beside figures and symbols: headings of tables, rows, axes and legends.
 //
-// Names of one meaning share a row, separated by "; "; a star stands for any part. Units are left out where two
+// Names of one meaning share a row, separated by "; "; a star stands for any part. Units are omitted where two
 // quantities do not share a heading. The longest name that fits is taken.
 #pragma once
 

@@ -13,7 +13,7 @@
 namespace kurbel {
 namespace {
 
-constexpr double likeness = 1e-4;  // falls that differ by less are the same one, come again
+constexpr double likeness = 1e-4;  // falls that differ by less are one fall that repeats
 constexpr double nothing =
     1e-9;  // of the usual speed: a fall below it is none, as of a solution that rings in its first steps
 

@@ -1,4 +1,4 @@
-// asked_figures.cpp — reads what the scene asks for, and finds it along the steps of a run.
+// asked_figures.cpp — reads what the scene requests, and finds it along the steps of a run.
 #include "studies/figures/asked_figures.h"
 
 #include <fmt/format.h>
@@ -102,7 +102,7 @@ std::vector<AskedFigure> read(const Model& model, std::vector<std::string>& of_o
   return list;
 }
 
-// Times in a stretch where its channel is looked at: its ends, its middle, and beside them for the rates.
+// Times in a stretch at which its channel is examined: its ends, its middle, and beside them for the rates.
 struct Looks {
   Looks(double from, double to)
       : delta(beside * (to - from)),

@@ -1,4 +1,4 @@
-// asked_figures.h — figures that a scene asks for by [[figure]]: functional ∘ channel ∘ window.
+// asked_figures.h — figures that a scene requests by [[figure]]: functional ∘ channel ∘ window.
 //
 // Within each step of the integration the channel x(t) is divided at its turns, the roots of its rate, into pieces that
 // rise or fall. All is found on the dense solution, not between samples:
@@ -102,7 +102,7 @@ class AskedRecorder final : public Observer {
   std::array<const CycleRecorder*, 2> cycles_;
   std::array<std::size_t, 2> seen_cycles_ = {};
   std::size_t next_step_ = 0;
-  double step_began_ = -HUGE_VAL;  // that of the sequence under way [s]; infinite: not looked at yet
+  double step_began_ = -HUGE_VAL;  // that of the sequence under way [s]; infinite: not examined yet
 };
 
 }  // namespace kurbel

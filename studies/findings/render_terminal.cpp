@@ -123,7 +123,7 @@ std::string in_lines(const std::vector<std::string>& lines) {
 }
 
 // Bad news first, cut where there is no room for all of it; then whole sentences, and always the last, which answers the
-// question. Those that find no room are counted.
+// question. Those that do not fit are counted.
 std::vector<std::string> headline_of(const Findings& findings) {
   std::vector<std::vector<std::string>> sentences;
   std::size_t all = 0;

@@ -145,7 +145,7 @@ Determination determined_by(const Eigen::MatrixXd& jacobian, const std::vector<i
     SharedDirection direction{.unknowns = {}, .parts = {}, .singular_value = all.value[k] / all.value[0]};
     std::vector<Eigen::Index> order(seen.size());
     std::iota(order.begin(), order.end(), Eigen::Index{0});
-    // The strongest first; equal ones in the order in which they were asked for.
+    // The strongest first; equal ones in the order in which they were requested.
     constexpr double equal = 1e-3;
     std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
       return std::round(std::abs(v[a]) / equal) > std::round(std::abs(v[b]) / equal);

@@ -54,7 +54,7 @@ void leave_records_out(FitProblem& problem, const FitState& state, FitStudy& stu
   const std::size_t count = problem.records().size();
   if (count < 2) return;
   for (std::size_t r = 0; r < count; ++r) {
-    // What concerns this record alone keeps its value; what the others cannot tell, too.
+    // What concerns this record alone keeps its value, and so does what the others cannot determine.
     problem.active[r] = false;
     const BoundedFit others = problem.fit(state.best.u, steps_of_checks);
     problem.active[r] = true;

@@ -22,7 +22,7 @@ struct RecordRequest {
   MachineQuestion scene = {};  // the machine on which it was measured
   Over over = Over::angle;
   std::vector<std::string> maps = {};     // "speed=speed.engine", "c*=speed.engine", "sd=scatter of speed.engine"
-  int cycles = 1;                         // number of cycles in the mean, if a column gives their scatter
+  int cycles = 1;                         // number of cycles averaged, if a column gives their scatter
   double window = 0;                      // averaging width of a point, half on either side [s or rad]
   std::string teeth = {};                 // "60-2": the speed column contains the tooth times of an encoder
   std::string hold_by = {};               // steady: the quantity that holds the mean speed; empty: none
@@ -45,8 +45,8 @@ struct FitRecord {
   std::vector<double> reach = {};  // a point is the mean over at ± reach; empty: a local value
   std::vector<RecordChannel> channels;
   double period = 0;            // over the angle: the machine's cycle [rad]
-  int cycles = 1;               // in the mean
-  std::string gaps = {};        // which rows are left out
+  int cycles = 1;               // that were averaged
+  std::string gaps = {};        // which rows are omitted
   double machine_error = 1e-7;  // of the simulated values, over the greatest: lower limit of deviations
 };
 

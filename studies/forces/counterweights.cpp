@@ -21,7 +21,7 @@ Force2 added(double moment, const PositionForces& p) {
 
 }  // namespace
 
-// a_k = 2/n Σ f cos kφ over whole turns; both ends are given, so the last one is left out.
+// a_k = 2/n Σ f cos kφ over whole turns; both ends are given, so the last one is omitted.
 std::vector<ForceHarmonic> harmonics(const std::vector<double>& values, int turns, double* mean) {
   const std::size_t n = values.size() - 1;
   std::vector<ForceHarmonic> orders;

@@ -56,7 +56,7 @@ ActingLoads left_by(const Sequence& sequence, const std::string& component, cons
   return some_of(std::move(left));
 }
 
-// With the loads that act in the end; of a sequence that goes round: with all.
+// With the loads that act in the end; of a sequence that repeats: with all.
 std::shared_ptr<const Model> alone(const AskedMechanism& asked, const Effects& effects) {
   Network network;
   const int node = network.add_node(asked.name, "", 1);  // kg·m²; forces do not see it
@@ -189,7 +189,7 @@ ActingLoads acting_loads(const Model& model, std::size_t element, const Instant&
   return some_of(std::move(on));
 }
 
-// --- where the cycle is looked at ---
+// --- where the cycle is examined ---
 
 namespace {
 

@@ -94,7 +94,7 @@ void judge_works(ForceCycle& c) {
   for (CycleWork& w : c.work) {
     double& work = w.work.value;
     uncertain += *w.work.error;
-    if (std::abs(work) <= rounding * largest) work = 0;  // of weights round a cycle
+    if (std::abs(work) <= rounding * largest) work = 0;  // of weights over a cycle
     if (w.name == "balancing torque") w.kind = work < 0 ? "useful" : "driving";
     if (std::abs(work) <= *w.work.error + nothing_left * largest) continue;
     if (work > 0) input += work;

@@ -197,7 +197,7 @@ class Study {
     for (std::size_t i = 0; i < simulated.others.size(); ++i) {
       const SimulatedMotion::Other& other = simulated.others[i];
       cycle.widen_to(cycle_along(other.motion), other.times);
-      if (i == 0) judge_works(cycle);  // of this cycle itself, whether or not it comes again
+      if (i == 0) judge_works(cycle);  // of this cycle itself, whether or not it repeats
     }
     cycle.label = "simulated";
     cycle.description = simulated.description;
@@ -258,7 +258,7 @@ std::optional<MotionAlong> rigid_motion(const AskedMechanism& asked, const Effec
     return std::move(motion->along);
   } catch (const SceneError&) {
     return {};
-  } catch (const std::runtime_error&) {  // its way does not come again between two tolerances
+  } catch (const std::runtime_error&) {  // at two tolerances its motion does not repeat alike
     return {};
   }
 }

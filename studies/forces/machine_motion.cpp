@@ -1,4 +1,4 @@
-// machine_motion.cpp — the steady motion's round past the cycle's angles; else the last whole cycle of the scene's run.
+// machine_motion.cpp — a period of the steady motion through the cycle's angles; else the last whole cycle of the run.
 #include "studies/forces/machine_motion.h"
 
 #include <fmt/format.h>
@@ -23,9 +23,9 @@ namespace kurbel {
 namespace {
 
 constexpr double map_tolerance = 1e-12, looser_tolerance = 1e-10, enough = 1e-9;
-constexpr int most_turns = 64;           // of the crank until everything comes again
-constexpr int periods_undriven = 40;     // what nothing drives comes to rest, or has come again long before
-constexpr std::size_t most_edges = 200;  // events of a cycle; of more none is looked at from both sides
+constexpr int most_turns = 64;           // of the crank until everything repeats
+constexpr int periods_undriven = 40;     // what nothing drives comes to rest, or has repeated long before
+constexpr std::size_t most_edges = 200;  // events of a cycle; of more none is examined from both sides
 
 // Neither the steady motion nor a cycle of the run is one over the crank's angle.
 struct TurnsBack : std::invalid_argument {

@@ -36,9 +36,9 @@ DriveLimits stated_limits(const ComponentData& data, const std::string& componen
 using std::numbers::pi;
 using Complex = std::complex<double>;
 
-constexpr double fine = 1e-11, loose = 1e-9;  // tolerances of the two rounds
+constexpr double fine = 1e-11, loose = 1e-9;  // tolerances of the two passes
 constexpr double rounding = 1e-10;            // of the rated torque
-constexpr std::size_t harmonics = 96;         // of a round; what is above counts with the next one's frequency
+constexpr std::size_t harmonics = 96;         // of a cycle; what is above counts with the next one's frequency
 
 double link_speed(const Model& m, const Snapshot& s) {
   const TrackedAngle& link = m.angles[at(m.reduction_angle)];
@@ -105,7 +105,7 @@ void add_frequencies(const Integrals::Sums& sums, double time, double noise, Joi
   weighted += rest * std::max(1.0, (harmonics + 1) / time / 10);
   const double sum = known + rest;
   load.frequency_factor = sum > noise * noise ? std::sqrt(weighted / sum) : 1;
-  if (!(sum > noise * noise)) load.frequency = 0;  // it does not swing
+  if (!(sum > noise * noise)) load.frequency = 0;  // it does not vibrate
 }
 
 // One period from a fixed point.

@@ -3,8 +3,8 @@
 //     engagement: W = ∫ |M_k Δω| dt ≤ allowable_heat, of the hottest          W_total/t ≤ allowable_heat_power
 //     belt:       F₀ + |τ|/(2 r₁) ≤ allowable_tension                         slip_reserve · |τ| ≤ M (Euler, Eytelwein)
 //     shaft:      K_A |T|/W_p ≤ allowable_shear_stress, K_A in steady motion  W_p = π (D⁴ − d⁴)/(16 D)
-//                 from the least torque to the greatest: yield; Goodman and the maker's amplitude are a bound for
-//                 steady motion only: the extremes of one start are not repeated continuously
+//                 from the least torque to the greatest: yield; Goodman and the manufacturer's amplitude are a bound
+//                 for steady motion only: the extremes of one start are not repeated continuously
 //     flywheel:   r |ω| ≤ allowable_rim_speed                                 ρ (r ω)² ≤ allowable_rim_stress
 //     motor:      √(∫ M² dt/t) ≤ M_N √part,  part = 1 (S1), duty_time/t (S2), duty_share (S3): a lower bound of heating
 //     coupling:   S_t S_z |T| ≤ T_Kmax (DIN 740-2)                            with S_z > 1 a bound

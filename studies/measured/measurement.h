@@ -46,7 +46,7 @@ struct Measurement {
   std::vector<MeasuredSignal> signals;
   bool over_angle = false;        // `time` and shift are angles of the link [rad]
   std::size_t rows_left_out = 0;  // which lack a number of a mapped column
-  // "3 of 801 rows of test.csv are left out: …"; empty: none.
+  // "3 of 801 rows of test.csv are omitted: …"; empty: none.
   std::string gaps() const;
 };
 

@@ -55,8 +55,8 @@ class OrderCurve {
  public:
   OrderCurve(const CriticalSpeed& c, const std::vector<SpeedResponse>& sweep) : c_(c), sweep_(sweep) {}
 
-  // The response at the maximum reached by climbing from a resonance over kept speeds; empty if the climb ends at the
-  // last of them, or leaves the resonance by more than `width`.
+  // The response at the maximum reached by climbing from a resonance over allowed speeds; empty if the climb ends at
+  // the last of them, or leaves the resonance by more than `width`.
   std::optional<SpeedResponse> peak(double resonance, double width,
                                     const std::function<SpeedResponse(double speed)>& at) const {
     std::size_t i = nearest_of(sweep_, resonance);

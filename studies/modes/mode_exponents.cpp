@@ -15,9 +15,9 @@ namespace {
 constexpr std::size_t most_states_of_exponents = 60;
 constexpr double reported_of_mean = 0.01;  // of |λ|: an error of the mean that is worth a note
 constexpr double near_enough = 0.5;        // of |λ|: how far an exponent may be from its mode of the mean
-constexpr double fades = 5;                // e-foldings in a round: what is left then is less than a hundredth
-constexpr double varies_much = 0.01;       // of ω, over the angles of the round
-constexpr double explained = 0.5;  // |ln μ − λT|: a change that this slow mode of the round's mean is enough for
+constexpr double fades = 5;                // e-foldings in a cycle: what is left then is less than a hundredth
+constexpr double varies_much = 0.01;       // of ω, over the angles of the cycle
+constexpr double explained = 0.5;  // |ln μ − λT|: a change that this slow mode of the cycle's mean suffices for
 
 bool varies_with_angle(const Model& m) {
   return std::any_of(m.network.elements.begin(), m.network.elements.end(),

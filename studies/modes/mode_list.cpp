@@ -123,7 +123,7 @@ void add_modes_of_internal_states(int count, const std::vector<char>& used, Mode
     mode.of_internal_states = true;
     mode.least = mode.greatest = mode.omega;
     mode.shape = principal_shape(found.drive, d.shape);
-    mode.shares = energy_shares(found.drive, d.shape.cwiseAbs());  // parts swing in different phases
+    mode.shares = energy_shares(found.drive, d.shape.cwiseAbs());  // parts vibrate in different phases
     if (d.in_internal_states > hardly_moves)  // where the machine stands still to rounding, no share means anything
       for (std::vector<double>* shares : {&mode.shares.joint, &mode.shares.shaft})
         std::fill(shares->begin(), shares->end(), 0.0);

@@ -21,8 +21,8 @@
 namespace kurbel {
 namespace {
 
-constexpr std::size_t cycle_samples = 4096;  // of a round of the steady motion
-constexpr int cycles_of_rocking = 12;        // what swings on then, swings on; each takes up to 64 times as long
+constexpr std::size_t cycle_samples = 4096;  // of a cycle of the steady motion
+constexpr int cycles_of_rocking = 12;        // what oscillates then, oscillates on; each takes up to 64 times as long
 
 class Study {
  public:

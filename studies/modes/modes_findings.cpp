@@ -22,7 +22,7 @@ namespace {
 
 using namespace modes;
 
-constexpr double cycle_error = 1e-5;  // of a peak read from 4096 samples of a round
+constexpr double cycle_error = 1e-5;  // of a peak read from 4096 samples of a cycle
 constexpr std::size_t responses_shown = 40, most_for_programs = 1000;
 
 // "unbounded" where it is: an undamped resonance.

@@ -83,7 +83,7 @@ class AlongTheDrive {
   }
 
  private:
-  // What hangs together with it, as a tree.
+  // What is connected with it, as a tree.
   void visit(std::size_t begin) {
     if (seen_[begin]) return;
     std::vector<std::size_t> found = {begin};
@@ -340,7 +340,7 @@ double end_of_spectrum(const ModesStudy& m, const AmplitudeSpectrum& s) {
 }
 
 std::vector<Plot> mode_plots(const ModesStudy& m) {
-  if (m.shaft_names.size() < 2) return {};  // one shaft that swings by weights alone has neither shape nor shares
+  if (m.shaft_names.size() < 2) return {};  // one shaft that oscillates by weights alone has neither shape nor shares
   return {shape_plot(m), energy_plot(m, false), energy_plot(m, true)};
 }
 

@@ -21,7 +21,7 @@ std::vector<std::size_t> joints_drawn(const ModesStudy& study);
 double end_of_spectrum(const ModesStudy& study, const AmplitudeSpectrum& spectrum);
 
 bool is_forced(const ModesStudy& study);
-// "First mode at 9.78 Hz (ζ = 0.126), second at 482 Hz; at 1500 rpm "coupling" swings by 9.94 N·m about 154 N·m"
+// "First mode at 9.78 Hz (ζ = 0.126), second at 482 Hz; at 1500 rpm the torque in "coupling" oscillates by ± 9.9 N·m"
 std::string conclusion_of(const ModesStudy& study);
 
 // Distribution of a mode's energy, the largest share first; empty if unknown. Internal states of a component count as one.

@@ -16,7 +16,7 @@ namespace kurbel {
 namespace {
 
 constexpr double apart = 0.05;      // of the speed, of two checks
-constexpr double least_use = 0.01;  // of what a joint may bear
+constexpr double least_use = 0.01;  // of the allowable load of a joint
 constexpr double most_seconds = 2;  // of processor time, of all checks together
 
 struct Candidate {

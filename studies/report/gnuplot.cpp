@@ -80,7 +80,7 @@ std::string data_of(const Plot& plot) {
   return text;
 }
 
-// For a name of several lines only the first: the others are used where there is room.
+// For a name of several lines only the first: the others are used where there is space.
 std::string places_of(const std::vector<std::string>& names) {
   std::string text = "(";
   for (std::size_t i = 0; i < names.size(); ++i)

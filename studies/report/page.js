@@ -51,7 +51,7 @@
     return Math.max(1, columns === 1 ? names.flat().length : Math.ceil(names.length / columns) * lines);
   }
 
-  // A curve that comes back on itself, such as a polar diagram, is read point by point; a crank that swings back a little is none.
+  // A curve that comes back on itself, such as a polar diagram, is read point by point; a crank that turns back a little is none.
   const wayBack = x => x.reduce((sum, value, i) => sum + (i ? Math.max(x[i - 1] - value, 0) : 0), 0);
   const isLocus = plot => plot.equalAxes || plot.series.some(s => s.labels || wayBack(s.x) > 0.2 * Math.abs(s.x[s.x.length - 1] - s.x[0]));
 
@@ -143,7 +143,7 @@
       hovertemplate: `${plot.x.label} %{x:.4~g} ${plot.x.unit}<br>${plot.y.label} %{y:.4~g} ${plot.y.unit}<br>%{text}<extra></extra>`,
     };
   }
-  // Where a curve in front swings so often that it fills a plane, what stands behind and swings less far is traced thinly
+  // Where a curve in front oscillates so often that it fills a plane, what stands behind and oscillates less is traced thinly
   // upon it.
   function againOnTop(plot) {
     const turns = s => s.y.reduce((sum, y, i) => sum + (i > 1 && (y - s.y[i - 1]) * (s.y[i - 1] - s.y[i - 2]) < 0 ? 1 : 0), 0);
@@ -210,7 +210,7 @@
     }
     return lines.length > 4 ? null : lines.map(line => line.trim()).join('\n');
   }
-  // What would run over its room in lines that do not, as far as its words allow.
+  // What would exceed its space in lines that do not, as far as its words allow.
   const broken = (text, most) => text.length > most ? inLines(text, Math.max(most, 8)) || text : text;
   // From the first to the last point: markers would make room for themselves at both ends.
   function rangeOf(plot) {
@@ -231,7 +231,7 @@
     return ends.length && Math.min(...ends) < Math.max(...ends) ? {range: [Math.min(...ends), Math.max(...ends)]} : {};
   }
   // Ticks of a logarithmic axis say their whole value, "2·10⁻³" and not "2", and are as close as their words allow:
-  // round steps where less than half a decade is seen, else all digits or some, every decade, or every so many.
+  // steps of round numbers where less than half a decade is seen, else all digits or some, every decade, or every so many.
   function logTicks(low, high, roomFor) {
     const exponents = Array.from({length: Math.ceil(high) - Math.floor(low) + 1}, (_, i) => Math.floor(low) + i);
     const seen = list => list.filter(v => Math.log10(v) > low - 1e-9 && Math.log10(v) < high + 1e-9);
@@ -258,7 +258,7 @@
     const margin = high > low ? 0.06 * (high - low) : 0.5;
     return logTicks(low - margin, high + margin, roomFor(along, lengthOf(plot, along)));
   }
-  // Numbers below bars: each, every other, every fifth, as their words have room.
+  // Numbers below bars: each, every other, every fifth, as there is space for their words.
   function stepOfBars(plot) {
     const [first, last] = extent(plot.series.flatMap(s => s.x)), least = (last - first + 1) * 24 / widthOf(plot);
     return [1, 2, 5, 10, 20, 50].find(step => step >= least) || 100;
@@ -304,7 +304,7 @@
       else if (!x || s.x[last] >= x[1] * (1 - 1e-3)) right.push(words);
       else annotations.push({...words, xanchor: 'center', yanchor: 'bottom', bgcolor: colour('card'), opacity: 0.85});
     }
-    // Slanted words need less height, upright ones less room beside each other: at most 40 degrees where the frame is wide.
+    // Slanted words need less height, upright ones less space beside each other: at most 40 degrees where the frame is wide.
     const tight = widthOf(plot) < 480, slant = tight ? -90 : -40, apart = tight ? 14 : 21;
     const longest = Math.max(0, ...right.map(a => a.text.length)), ceiling = Math.max(0, ...top.map(a => a.text.length));
     const beyond = tight ? 0 : Math.max(0, ...top.map(a => x ? (part(a.x, x) - 1) * widthOf(plot) + a.text.length * 5 : 0));
@@ -336,7 +336,7 @@
       taken.push(words);
       annotations.push({x: from, y: 1, xref: 'x', yref: 'paper', text: plain(band.text), textangle: -90, xanchor: 'left', xshift: x ? words.left - at : 0, yanchor: 'top', showarrow: false, font: {size: 11, color: colour(band.role)}, bgcolor: line ? colour('card') : 'rgba(0,0,0,0)', opacity: 0.9});
     }
-    // A level line's name stands above it where it covers no other word, and circles, rays and bands leave most room; its number
+    // A level line's name stands above it where it covers no other word, and circles, rays and bands leave most space; its number
     // alone where the whole has no such place. "2  ring against flywheel, 280 Hz": where the page is narrow the number alone.
     const nameLine = s => {
       const level = y ? H * (1 - part(s.y[0], y)) : 0, texts = tight ? [s.textAtStart.split(' ')[0]] : [s.textAtStart, s.textAtStart.split(' ')[0]];
@@ -432,11 +432,11 @@
   function drawPlot(entry) {
     const {plot, place} = entry;
     place.style.height = '';
-    if (legendRows(plot) > 1) place.style.height = place.clientHeight + 19 * (legendRows(plot) - 1) + 10 + 'px';  // a legend takes no room from curves
+    if (legendRows(plot) > 1) place.style.height = place.clientHeight + 19 * (legendRows(plot) - 1) + 10 + 'px';  // a legend takes no space from curves
     const layout = layoutOf(plot), onPaper = root.classList.contains('printing');
     if (onPaper) Object.assign(layout, {width: place.clientWidth, height: place.clientHeight});
     else layout.autosize = true;
-    if (onPaper !== Boolean(entry.onPaper)) Plotly.purge(place), entry.drawn = false;  // else the legend keeps the room that it had
+    if (onPaper !== Boolean(entry.onPaper)) Plotly.purge(place), entry.drawn = false;  // else the legend keeps the space that it had
     entry.onPaper = onPaper;
     Plotly.react(place, tracesOf(plot), layout, {responsive: true, displaylogo: false, displayModeBar: false});
     if (!entry.drawn && (plot.marks.length || plot.x.log || plot.y.log)) place.on('plotly_relayout', () => refine(entry));
@@ -673,7 +673,7 @@
       stage.classList.add('beside');
       stage.style.setProperty('--sides', [line.svg, linkages[0]].map((svg, k) => `minmax(${k ? 200 : 0}px, ${ratio(svg).toFixed(3)}fr)`).join(' '));
     }
-    // Several mechanisms share the room in columns of at least 200 pixels.
+    // Several mechanisms share the width in columns of at least 200 pixels.
     const columns = Math.max(1, Math.min(linkages.length, Math.floor((room + 16) / 216))), most = linkages.length > 1 || linkages.some(svg => ratio(svg) > 2) ? 300 : 460;
     for (const svg of linkages) {
       svg.style.setProperty('--tall', `${beside ? 460 : most}px`);
@@ -820,7 +820,7 @@
     return lanes;
   }
 
-  // A row for each line, and lines of few parts beside the one before where that leaves room; from where each begins.
+  // A row for each line, and lines of few parts beside the one before where that leaves space; from where each begins.
   function putLanes(lanes, lengthOf) {
     const widest = Math.max(420, ...lanes.map(lane => lengthOf(lane.list))), most = Math.max(widest, narrow() ? 0 : 1100), rows = [];
     for (const lane of lanes) {
@@ -838,7 +838,7 @@
   function drawShaftLine(m, front, stage) {
     const ghost = m.motions.length > 1 ? m.motions[0] : null;
     const lanes = lanesOf(m), gap = 22, R = 13;
-    // Steps down and up a lane: what they add up to makes room above and below. Ties run below the dials.
+    // Steps down and up a lane: what they add up to makes space above and below. Ties run below the dials.
     const stepOf = p => stepsDown(p.kind) ? (p.kind === 'belt' ? 52 : 34) * (Math.abs(p.ratioIn) > Math.abs(p.ratioOut) ? 1 : -1) : 0;
     const halfOf = p => p.kind === 'flywheel' || p.kind === 'brake' ? 64 : 54;
     let raise = 0, deepest = 0;
@@ -1114,7 +1114,7 @@
     }
     function linkage(parent, ghost) {
       const ghostly = {class: 'ghost', 'stroke-width': 13, 'stroke-linecap': 'round', 'stroke-linejoin': 'round', opacity: 0.45};
-      // The pin's circle, where it comes round: the view of a crank that rocks ends at its arc.
+      // The pin's circle, where the crank turns fully: the view of a crank that rocks ends at its arc.
       const radius = Math.hypot(g.x[1][0] - g.x[0][0], g.y[1][0] - g.y[0][0]), spread = list => Math.max(...list) - Math.min(...list);
       if (!ghost && Math.min(spread(g.x[1]), spread(g.y[1])) > 1.9 * radius) draw('circle', {cx: X(0, 0), cy: Y(0, 0), r: radius * scale, class: 'dial'}, parent);
       const parts = g.links.filter(link => link.shape !== 'point' && (!ghost || link.shape !== 'slot')).map(link => {

@@ -108,7 +108,7 @@ void add_rest_twists(BaseMotion& base, const std::vector<BaseMotion::Position>& 
 
 using Orders = std::vector<OrderSource>;
 
-// Over the cycle at one speed, by harmonics. Samples lie half a step off round angles, where edges are.
+// Over the cycle at one speed, by harmonics. Samples lie half a step off whole degrees, where edges are.
 Orders orders_of(const LinearDrive& drive, BaseMotion& base, std::size_t samples, std::size_t harmonics) {
   const double step = base.cycle() / static_cast<double>(samples), sign = drive.at.speed < 0 ? -1 : 1;
   std::vector<BaseMotion::Position> positions(samples);

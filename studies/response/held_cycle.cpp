@@ -24,9 +24,9 @@ using Eigen::VectorXd;
 constexpr double map_tolerance = 1e-11, enough = 1e-10;     // residual of the map, over the rated values
 constexpr double most_derivatives = 25;                     // periods with derivative that a search may take
 constexpr double first_part = 0.25, least_part = 1.0 / 32;  // of the way between two speeds
-constexpr std::size_t samples = 4096;                       // of a round
+constexpr std::size_t samples = 4096;                       // of a cycle
 
-// Mean speeds of shafts over a round, integrated along its steps.
+// Mean speeds of shafts over a cycle, integrated along its steps.
 class MeanSpeeds final : public Observer {
  public:
   explicit MeanSpeeds(std::vector<std::size_t> states) : states_(std::move(states)), sum_(states_.size(), 0.0) {}

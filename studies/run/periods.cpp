@@ -99,7 +99,7 @@ DrivenTime data_of(const DrivenPart& section, const Model& model, const LinkHist
   return d;
 }
 
-// A section before a drive was started tells nothing of the motion after that.
+// A section before a drive was started says nothing about the motion after that.
 DrivenTime driven_time(const Model& model, const LinkHistory& link, const Periods& periods) {
   const double end = periods.run_down_begin.value_or(link.outcome.t);
   const std::vector<DrivenPart> list = sections_of(model, link.switchings, link.outcome.events, end);
@@ -189,8 +189,8 @@ std::optional<Approach> find_period(const Model& model, double tolerance, Driven
   return best;
 }
 
-// Of the last speed v to its limit. A rising speed is told from the limit, a falling one from where it is: a limit of zero
-// has no parts.
+// Of the last speed v to its limit. A rising speed is stated from the limit, a falling one from where it is: a limit of
+// zero has no parts.
 std::string remaining_in_words(const Approach& approach, double v, bool steady) {
   const double rest = *approach.remaining, now = std::abs(v);
   if (steady) return fmt::format("is within {:.3g} % of its final value", 100 * std::max(rest / now, least_reported));

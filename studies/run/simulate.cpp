@@ -280,7 +280,7 @@ class Simulation {
   std::unique_ptr<OneRun> one_run(double tolerance, bool elsewhere = false) {
     return one_run(tolerance, elsewhere ? equations_elsewhere() : equations_, elsewhere);
   }
-  // Looks closely where the speed passes what the last run was asked for; everywhere, should other levels be asked for.
+  // Looks closely where the speed passes the levels requested in the last run; everywhere, should others be requested.
   std::unique_ptr<OneRun> one_run(double tolerance, Equations& equations, bool elsewhere = false) {
     std::unique_ptr<OneRun> run = one_run(tolerance, equations, elsewhere, fine_ ? fine_->speed.get() : nullptr);
     return run->speed->answered() ? std::move(run) : one_run(tolerance, equations, elsewhere, nullptr);
@@ -289,7 +289,7 @@ class Simulation {
     const Model& model = equations.model();
     auto run = std::make_unique<OneRun>();
     const bool will_be_confirmed = options_.measure_error && !fine_;  // a finer run follows, whose balance counts
-    const int rows = elsewhere ? 0 : settings_.samples;               // a witness is asked for figures alone
+    const int rows = elsewhere ? 0 : settings_.samples;               // a witness gives figures alone
     run->trajectory = std::make_shared<TrajectoryRecorder>(channels_of(model, settings_.output), settings_.until, rows);
     std::vector<ExtremeOf> extremes = extremes_of(model);
     for (const auto more : {motor_extremes_of, rim_speeds_of, shaft_torques_of, held_torques_of})

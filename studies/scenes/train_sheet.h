@@ -1,4 +1,4 @@
-// train_sheet.h — converts a maker's mass–elastic sheet to a scene.
+// train_sheet.h — converts a manufacturer's mass–elastic sheet to a scene.
 //
 //     station, inertia [kg*m2], stiffness [N*m/rad], speed ratio, diameter [mm]
 //     motor,   12.4,            rigid,               1,

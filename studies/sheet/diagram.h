@@ -52,7 +52,7 @@ void draw_ordinates(Canvas& canvas, const Box& box, const AngleAxis& axis, const
 Placed draw_diagram(Canvas& canvas, const Box& box, const AngleAxis& axis, const SheetDiagram& diagram,
                     const std::vector<SheetPosition>& positions);
 
-// Diagrams below one another on a sheet of their own, a note at its foot. rows: that have room there; 0: the diagrams.
+// Diagrams below one another on a sheet of their own, a note at its foot. rows: how many fit there; 0: the diagrams.
 void add_diagrams(Sheets& sheets, const std::string& title, double cycle, const std::vector<SheetPosition>& positions,
                   const std::vector<SheetDiagram>& diagrams, const std::string& note, std::size_t rows = 0);
 

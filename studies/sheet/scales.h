@@ -22,7 +22,7 @@ struct Scale {
   double mm(double value) const { return value / per_mm; }
   std::string words() const;  // "μ_M = 2.5 N·m/mm"
 };
-// The finest round scale in which `largest` fits `room` [mm]; 1 if all values are zero.
+// The finest scale of round numbers in which `largest` fits the given length [mm]; 1 if all values are zero.
 Scale scale_for(const std::string& symbol, const std::string& unit, double largest, double room);
 
 }  // namespace kurbel

@@ -44,7 +44,7 @@ double finest(const Extent& e, const Box& cell) {
   return std::max(e.width() / (cell.width - 2 * free_edge), e.height() / (cell.height - 2 * free_edge - head));
 }
 
-// Names of one cell: beside what they name, off each other and off the lines as far as there is room.
+// Names of one cell: beside what they name, off each other and off the lines as far as there is space.
 class Names {
  public:
   Names(Canvas& canvas, const Box& cell) : c_(canvas), cell_(cell) {}

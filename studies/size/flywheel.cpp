@@ -115,7 +115,7 @@ SpeedCycle::SpeedCycle(const WorkDiagram& diagram, const MechanismInertia& mecha
     const Extremes z = extremes_at(energy);
     return z.least.value > 0 ? 0.5 * (std::sqrt(2 * z.most.value) + std::sqrt(2 * z.least.value)) : 0.0;
   };
-  // With the slowest point at rest: the smallest T₀ that carries the machine round.
+  // With the slowest point at rest: the smallest T₀ that carries the machine through its cycle.
   const double floor = -diagram.excess.minimum(diagram.net_torque).value;
   const double needed = mean_at(std::max(floor, 0.0) * (1 + 1e-14) + 1e-300);
   if (needed >= mid_speed)

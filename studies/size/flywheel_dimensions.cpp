@@ -107,7 +107,7 @@ void find_stresses(const FlywheelRequest& r, FlywheelDimensions& d) {
 }  // namespace
 
 // Densities and strengths are those of the standards' grades; rim speeds are customary (grey cast iron: 6000 ft/min in
-// machinery handbooks) and hold for sound castings without joints.
+// machinery handbooks) and hold for castings without defects and joints.
 const std::vector<FlywheelMaterial>& flywheel_materials() {
   static const std::vector<FlywheelMaterial> all = {{"grey cast iron", 7200, 0.26, 250e6, 30},
                                                     {"nodular cast iron", 7100, 0.275, 400e6, 45},

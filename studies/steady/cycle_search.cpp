@@ -35,7 +35,7 @@ constexpr double rounding_of_multipliers = 1e-12;
 constexpr double rounding_of_works = 1e-13;  // a quadrature adds up that of all its steps, which both searches share
 constexpr double orbit_cost_limit = 40;      // cycles
 
-// (ω_max + ω_min)/2 of the link over a round, as an observer.
+// (ω_max + ω_min)/2 of the link over a cycle, as an observer.
 class LinkSpeed {
  public:
   explicit LinkSpeed(const Model& m) : recorder_(wanted(m)) {}

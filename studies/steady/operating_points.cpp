@@ -20,7 +20,7 @@ namespace kurbel {
 namespace {
 
 constexpr int scan_points = 250;              // over the rated range
-constexpr int scan_points_moving = 100;       // where each torque is asked of the equations of motion
+constexpr int scan_points_moving = 100;       // where each torque is computed by the equations of motion
 constexpr double scan_beyond = 1.25;          // of the rated speed
 constexpr int most_doublings = 6;             // beyond that: it runs away
 constexpr double rounding_of_tables = 1e-11;  // of the turnover: what tables of mechanisms leave of torques that cancel

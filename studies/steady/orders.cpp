@@ -25,7 +25,7 @@ constexpr std::size_t fewest_waves = 24, most_waves = 240;  // of a period
 constexpr double least_reported = 0.01;                     // of the largest
 constexpr std::size_t most_reported = 12;                   // of one quantity
 constexpr double below_rounding = 1e-11;                    // of the rated quantity
-constexpr double most_parts = 128;                          // of two turns, after which a motion comes again
+constexpr double most_parts = 128;                          // of two turns, after which a motion repeats
 constexpr double slowest_part = 1e-6;                       // of the rated speed: below that the link stands
 constexpr double whole_within = 1e-6;
 
@@ -237,7 +237,7 @@ OrdersOfCycle orders_of_cycle(const ReturnMap& map, const SteadyPoint& point, do
                                 link, std::abs(turned) / turn)};
   const std::vector<OrderChannel> channels = channels_with_orders(m);
   OrderIntegrals integrals(m, channels, *lowest, turned, vibration);
-  Equations equations(map.shared_model(), true);  // its quadratures keep steps short that torques alone would ask for
+  Equations equations(map.shared_model(), true);  // its quadratures keep steps short that torques alone would require
   const RunOutcome outcome = follow_period(map, point, equations, {.tolerance = tolerance}, {&integrals});
   if (!outcome.diagnosis.empty()) return {.none = "no orders: " + outcome.diagnosis};
   if (!(integrals.slowest() > slowest_part * m.speed_scale)) return {.none = standing};

@@ -52,7 +52,7 @@ void add_rim_speeds(const SteadyCycle& c, Result& as_run) {
   }
 }
 
-// Loads of joints in steady motion, by DIN 740-2 and the makers' stresses, as in `modes`: instead of verdicts on
+// Loads of joints in steady motion, by DIN 740-2 and the manufacturers' stresses, as in `modes`: instead of verdicts on
 // peaks only. The start is assessed by `modes` and `run`.
 void add_loads(const SteadyCycle& c, std::vector<Verdict>& verdicts) {
   if (!c.loads.found) return;

@@ -29,7 +29,7 @@ std::string interval_words(const Index& i) {
   return fmt::format("{} ({:.{}f} … {:.{}f})", value, i.low, places, i.high, places);
 }
 
-// A count with thousands separators, "10,007": a headline would round a plain number.
+// A count with thousands separators, "10,007": a headline rounds a plain number.
 std::string counted(std::size_t count) {
   std::string text = fmt::format("{}", count);
   for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");

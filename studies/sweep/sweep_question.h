@@ -1,4 +1,4 @@
-// sweep_question.h — a sweep over variants of a machine, as commands and the library ask for it.
+// sweep_question.h — a sweep over variants of a machine, as commands and the library request it.
 #pragma once
 
 #include <cstdint>

@@ -150,7 +150,7 @@ class TrainReport {
     }
   }
 
-  // A row of tiles: three natural frequencies, the largest swing; the two largest torques in time.
+  // A row of tiles: three natural frequencies, the largest amplitude; the two largest torques in time.
   static void add_figures(const Part& part, Findings& f) {
     const std::size_t most = f.figures.empty() ? 3 : 2;
     std::size_t number = 0;

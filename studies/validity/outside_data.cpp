@@ -245,7 +245,7 @@ void drop_errors(Result& result, double since) {
     if (!(claim.evidence.at && *claim.evidence.at < since)) claim.evidence.error.reset();
 }
 
-// Runs that share the rounding of the start agree, and tell nothing. An extreme that came before may be passed later.
+// Runs that share the rounding of the start agree, and show nothing. An extreme that came before may be passed later.
 void drop_errors_after_unstable_start(Result& result) {
   double since = result.until;
   for (const Claim& c : result.claims)

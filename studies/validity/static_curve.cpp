@@ -31,7 +31,7 @@ std::vector<std::pair<std::string, InductionData>> static_motors(const Model& mo
 // An oscillation between two extremes of the speed and back.
 struct TorqueOscillation {
   double frequency = 0, torque = 0, at = 0;  // [Hz], from least to largest [N·m], [s]
-  double followed = 1;                       // part of a torque's swing that the fluxes let through
+  double followed = 1;                       // part of a torque's oscillation that the fluxes let through
   double missed() const { return torque * (1 - followed); }
 };
 

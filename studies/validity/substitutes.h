@@ -11,7 +11,7 @@ namespace kurbel {
 
 // One sentence for each substitute.
 std::vector<std::string> substitutes(const Model& model);
-// One for each contact that chattered, by its name, and followed a law without events; a name may come again.
+// One for each contact that chattered, by its name, and followed a law without events; a name may repeat.
 std::vector<std::string> regularised(const std::vector<std::string>& contacts);
 
 // Effects that are on and have data but no influence, because another effect that they need is off: one sentence for

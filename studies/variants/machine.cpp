@@ -160,7 +160,7 @@ MachineAnswer answer_of_run(const MachineQuestion& q, const Scene& scene, bool m
   options.measure_error = measure;
   options.watch.interrupted = q.interrupted;
   Scene unseen = scene;
-  unseen.run.samples = 0;  // nobody asks for the motion of a variant
+  unseen.run.samples = 0;  // the motion of a variant is not needed
   Result result = simulate(unseen, unseen.effects, "", options);
   if (!result.complete) return {RowState::failed, result.diagnosis, {}};
   return {result.unconfirmed() ? RowState::unconfirmed : RowState::done,

@@ -80,7 +80,7 @@ void look_along(ReduceSheet& sheet) {
 // --- works ---
 
 SizeOptions size_options(const MachineReduction& r, const ReduceOptions& options, const ReduceSheetRequest& request) {
-  constexpr double any = 0.05;  // the works do not hang on it
+  constexpr double any = 0.05;  // the works do not depend on it
   SizeOptions o;
   o.delta = request.delta.value_or(any);
   o.basis = r.basis;

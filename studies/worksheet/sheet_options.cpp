@@ -1,4 +1,4 @@
-// sheet_options.cpp — whether a sheet is asked for, and on which paper; over which angles a rocking crank is looked at.
+// sheet_options.cpp — whether a sheet is requested, and on which paper; over which angles a rocking crank is examined.
 #include "studies/worksheet/sheet_options.h"
 
 #include <fmt/format.h>
