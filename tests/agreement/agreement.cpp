@@ -116,7 +116,7 @@ class Comparison {
   }
   // Elsewhere a phase stays behind, and no section is the same for run and disturbed run.
   bool dies_away() const { return run_.base == Base::angle || run_.base == Base::time; }
-  // What a verb throws is a refusal of all that it was asked for.
+  // What a verb throws is a refusal of every topic requested from it.
   void refusable(const std::vector<Topic>& topics, const std::function<void()>& ask) {
     try {
       ask();
@@ -193,7 +193,7 @@ class Comparison {
     if (decay.measured)
       return compare(Topic::multipliers, "largest", decay.factor, reported, decay.error + 1e-3, notes);
     if (decay.periods == 0 && decay.factor == 0) return;
-    // Too fast to be measured: it must be told as so fast.
+    // Too fast to be measured: it must be reported as at least so fast.
     const Verdict verdict = worse_of(reported <= decay.factor + 1e-3, notes);
     row_.figures.push_back({Topic::multipliers, "largest, at most", decay.factor, reported, 0, verdict, {}});
   }
@@ -251,7 +251,7 @@ class Comparison {
 
   // --- size ---
 
-  // A flywheel for three fifths of the fluctuation that is there; what is told to be reached, put into the scene.
+  // A flywheel for three fifths of the fluctuation that is there; what is said to be reached, put into the scene.
   void ask_size() {
     const Measured* delta = run_.find(quantities::delta, run_.link);
     SizeOptions options;

@@ -4,7 +4,7 @@
 //   agrees   |run − study| ≤ e_run + e_study + 1e-7 · scale
 //            e_run    of the settled run (settled_run.h);  e_study  stated by the study, 0 where it states none
 //            scale    rated quantity of the figure;  1e-7  what a run to 1e-10 a step, settled to 1e-7, leaves
-//   told     it does not, and the study says what it leaves out and how much that is: a note of what is left out or
+//   reported it does not, and the study says what it omits and how much that is: a note of what is omitted or
 //            taken otherwise, with a number
 //   refused  the study answers no question of this scene, or not this one, and says why
 //   silent   it does not agree, and nothing is said
@@ -46,7 +46,7 @@ enum class Topic {
   advice
 };
 inline constexpr std::size_t topic_count = 19;
-inline constexpr std::size_t first_of_modes = 11;  // from here on: swings (compare_modes)
+inline constexpr std::size_t first_of_modes = 11;  // from here on: vibrations (compare_modes)
 const char* name_of(Topic topic);
 
 struct Compared {
@@ -55,7 +55,7 @@ struct Compared {
   double run = 0, study = 0;
   double allowed = 0;  // by which they may differ
   Verdict verdict = Verdict::agrees;
-  std::string words;  // why it was refused, or what was told
+  std::string words;  // why it was refused, or what was reported
 };
 
 struct Row {
@@ -77,8 +77,8 @@ struct Questions {
 // Throws SceneError where the scene makes no machine.
 Row compare_verbs(const Scene& scene, const Questions& questions, const SettleSettings& settings = {});
 
-// `modes` against free and forced swings of the settled run (free_vibration.h, forced_vibration.h). No cells where nothing is
-// elastic. Frequencies and damping: the three lowest that swing, on either side, each against its nearest on the other;
+// `modes` against free and forced vibrations of the settled run (free_vibration.h, forced_vibration.h). No cells where
+// nothing is elastic. Frequencies, damping: the three lowest vibrations of either, each against the other's nearest;
 // forced_orders: amplitudes of every order of every joint's torque; forced_peaks: its mean, greatest and least value.
 Row compare_modes(const Scene& scene, const SettleSettings& settings = {});
 
@@ -98,7 +98,7 @@ Row compare_second_half(const Scene& scene, const SettleSettings& settings = {})
 // Names of tests/agreement/*.toml, in alphabetic order. Templates are files of scenes/.
 std::vector<std::string> scene_files(const std::string& folder);
 
-// Notes that say what is left out, and how much that is.
+// Notes that say what is omitted, and how much that is.
 bool reports_how_much(const std::vector<std::string>& notes);
 
 struct Totals {

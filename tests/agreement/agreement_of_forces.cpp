@@ -1,4 +1,4 @@
-// agreement_of_forces.cpp — what `forces` tells of the simulated machine, held against couplings and Simbody.
+// agreement_of_forces.cpp — what `forces` reports of the simulated machine, held against couplings and Simbody.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ struct Curve {
   }
 };
 
-// --- what the study tells, under one roof: the only place that knows its names ---
+// --- what the study reports, under one roof: the only place that knows its names ---
 
 struct ReportedForces {
   double greatest = 0, least = 0, mean = 0;  // torque on the crank
@@ -76,7 +76,7 @@ struct Driven {
   double sense = 1;  // of its torque on the crank
 };
 
-// Nodes that are one body with this one, ways through one joint left out.
+// Nodes that are one body with this one, without the connections through one joint.
 std::vector<int> body_of(const Network& network, int node, int without) {
   std::vector<int> body = {node};
   for (std::size_t i = 0; i < body.size(); ++i)

@@ -1,4 +1,4 @@
-// agreement_of_modes.cpp — what `modes` tells of swings, held against swings of the settled run.
+// agreement_of_modes.cpp — what `modes` reports of vibrations, held against vibrations of the settled run.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,19 +20,19 @@ namespace {
 
 constexpr double left_by_runs = 1e-5;      // of a frequency, of the largest torque
 constexpr double left_of_ratio = 1e-4;     // of the damping ratio, as a number: where it is small, runs show no more
-constexpr double most_stated = 0.05;       // of a figure: what is stated as more makes it told, not agreed
+constexpr double most_stated = 0.05;       // of a figure: what is stated as more makes it reported, not agreed
 constexpr std::size_t judged = 3;          // frequencies, from the lowest on
 constexpr double well_measured = 0.02;     // of a frequency: what is known less well is not judged
-constexpr double least_share = 0.1;        // of twists in the energy, about half in a swing: less is another motion
+constexpr double least_share = 0.1;        // of twists in the energy, about half in a vibration: less is another motion
 constexpr double vibrates_below = 0.7071;  // damping ratio: above, nothing is largest at any frequency
 constexpr double whole = 1e-3;             // how far an order may be from one of the period's
 constexpr std::size_t most_harmonics = 400;
 
-// --- what the study tells, under one roof: the only place that knows its names ---
+// --- what the study reports, under one roof: the only place that knows its names ---
 
 struct ReportedMode {
   double omega = 0, decay = 0, error = 0;
-  double least = 1, greatest = 1;  // with the link held at angles of the cycle, over the one told
+  double least = 1, greatest = 1;  // with the link held at angles of the cycle, over the one reported
   double natural() const { return std::hypot(omega, decay); }
   double ratio() const { return natural() > 0 ? decay / natural() : 1; }
 };
@@ -43,7 +43,7 @@ std::vector<ReportedMode> reported_modes(const ModesStudy& study) {
     ReportedMode reported{damped.lambda.imag(), -damped.lambda.real(), damped.error};
     const auto* const mode = find_by(study.modes, &Mode::lambda, damped.lambda);
     if (mode && mode->only_of_mean) continue;
-    // Where coefficients change with the angle, exponents are what is told of the swing; the mean's is beside them.
+    // Where coefficients change with the angle, exponents are reported of the vibration; the mean's is beside them.
     if (mode && !mode->periodic.empty()) {
       for (const PeriodicMode& s : mode->periodic) {
         reported = {s.exponent.imag(), -s.exponent.real(), s.error};
@@ -71,7 +71,7 @@ struct ReportedTorque {
 struct ReportedTorques {
   std::map<std::string, ReportedTorque> joints;
   double order = 1;    // of the first amplitude
-  double highest = 0;  // order that is told
+  double highest = 0;  // order that is reported
 };
 ReportedTorques reported_torques(const ModesStudy& study) {
   const SpeedResponse& said = study.cycle ? *study.cycle : study.here;
@@ -157,7 +157,7 @@ class ModesComparison {
     for (const Topic topic : topics())
       row_.figures.push_back({topic, "", 0, 0, 0, Verdict::refused, why.empty() ? "no reason given" : why});
   }
-  // What is left out with a number, or a joint whose frequency hangs on the amplitude, with that of the round as it is.
+  // What is omitted with a number, or a joint whose frequency depends on the amplitude, with that of the cycle as is.
   static bool reports(const ModesStudy& by) { return reports_how_much(by.notes) || !by.rattles.empty(); }
   // `stated`: what the study says that its figure may be off by.
   void compare(Topic topic, const std::string& figure, double run, double study, double allowed, double stated,
@@ -170,7 +170,7 @@ class ModesComparison {
     row_.figures.push_back({topic, figure, run, study, allowed + stated, verdict, {}});
   }
 
-  // --- free swings ---
+  // --- free vibrations ---
 
   std::vector<FreeVibration> seen() const {
     std::vector<FreeVibration> list;
@@ -193,7 +193,7 @@ class ModesComparison {
       compare_mode(fmt::format("mode {} ({})", i + 1, m.joint), m,
                    nearest == reported.end() ? ReportedMode{} : *nearest, study);
     }
-    // What is told must be there, too, if it could be seen.
+    // What is reported must be there, too, if it could be seen.
     std::erase_if(reported, [&](const ReportedMode& t) {
       return t.ratio() >= vibrates_below || t.omega > free_.fastest || t.decay > free_.shortest;
     });
@@ -216,7 +216,7 @@ class ModesComparison {
     compare(Topic::damping, name + " ζ", m.ratio(), t.ratio(), of_ratio, stated_ratio, study);
   }
 
-  // --- forced swings ---
+  // --- forced vibrations ---
 
   void judge_torques(const ModesStudy& study) {
     const ReportedTorques reported = reported_torques(study);
@@ -232,7 +232,7 @@ class ModesComparison {
       compare(Topic::forced_peaks, name + " least", vibration.least, torque.least, allowed, 0, study);
       if (!varies()) continue;
       judge_orders(name, vibration, torque, reported, study);
-      // The linear drive's, with the difference that is told beside it.
+      // The linear drive's, with the difference that is reported beside it.
       compare(Topic::linear_peaks, name + " greatest, linear", vibration.greatest, torque.linear_greatest, allowed,
               std::abs(torque.greatest - torque.linear_greatest), study);
       compare(Topic::linear_peaks, name + " least, linear", vibration.least, torque.linear_least, allowed,

@@ -12,13 +12,13 @@ namespace {
 
 constexpr double part = 1e-4;         // of the speeds, that they are more
 constexpr double noise = 2e-10;       // of rated values, that two runs side by side leave
-constexpr double seen = 100 * noise;  // deviations below are not looked at
+constexpr double seen = 100 * noise;  // deviations below are not examined
 constexpr int most_periods = 14;      // followed
-constexpr int most_modes = 4;         // told apart
+constexpr int most_modes = 4;         // distinguished
 constexpr std::size_t few = 6;
 constexpr double unseen = 0.03;
 constexpr double fits_well = 1e-3;   // part of a deviation that a recurrence leaves
-constexpr double fits_badly = 0.05;  // then it tells no factor
+constexpr double fits_badly = 0.05;  // then it gives no factor
 
 std::vector<Passing> passings_from(const SettledRun& run, const Checkpoint& from, double periods, Passings::Of of,
                                    double base, bool energies) {

@@ -116,7 +116,7 @@ class Pushing {
     found_.measured = true;
   }
 
-  // Energies of unit states over their scales; own states and angles have none of their own.
+  // Energies of unit states over their scales; internal states and angles have none of their own.
   void weigh() {
     const Model& m = *run_.model;
     weight_ = VectorXd::Zero(scale_.size());
@@ -273,8 +273,8 @@ class Pushing {
       });
       if (vibration.omega > 0 && !seen) list.push_back(vibration);
     }
-    // What is locked comes in two, and takes the place of a swing; else what never changes its sign from period to period is
-    // a slow change of speed that the forced swing follows.
+    // What is locked comes in two, and takes the place of a vibration; else what never changes its sign from period to
+    // period is a slow change of speed that the forced vibration follows.
     const std::vector<FreeVibration> all = list;
     const auto free = std::count_if(all.begin(), all.end(), [](const FreeVibration& s) { return !s.locked; });
     std::erase_if(list, [&](const FreeVibration& s) {
@@ -290,7 +290,7 @@ class Pushing {
     return list;
   }
   // Currents, deflections of rods: what has its energy in these may turn with the shafts at a frequency that is not its
-  // own. A swing of shafts is one that the machine has, or nearly, while its angles are held, and it is the nearest.
+  // own. A vibration of shafts is one that the machine has, or nearly, while its angles are held, and is the nearest.
   void leave_others(std::vector<FreeVibration>& list) const {
     const auto apart = [](const FreeVibration& s, const Complex& rate) {
       return std::hypot(s.omega - rate.imag(), s.decay + rate.real());
@@ -306,7 +306,7 @@ class Pushing {
     }
   }
 
-  // Along the period: how the twist that swings most turns.
+  // Along the period: how the twist that vibrates most turns.
   FreeVibration followed(const std::vector<Stretch>& stretches, const std::vector<Eigen::VectorXcd>& pieces,
                          Complex mu) const {
     std::vector<Eigen::VectorXcd> path;

@@ -1,4 +1,4 @@
-// passings.h — where a motion is looked at again and again: passings of an angle, begins of a period of time.
+// passings.h — where a motion is examined again and again: passings of an angle, begins of a period of time.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@ struct Passing {
   double t = 0;
   double angle = 0;           // of the link, turns counted [rad]
   double speed = 0;           // of the link [rad/s]
-  double kinetic_energy = 0;  // [J], where asked for
+  double kinetic_energy = 0;  // [J], where requested
   std::vector<double> state;  // speeds and spring twists over their scales
 };
 

@@ -2,14 +2,14 @@
 // studies must agree with.
 //
 // Nothing of engine/orbit and studies/steady finds anything here but still_to_come(): the motion is integrated, and
-// looked at where something comes again, which is the first of these that does:
+// examined where something repeats, which is the first of these that does:
 //   angle   the link passes a multiple of its cycle's angle (2π where there is none)
 //   time    a law over time begins anew
 //   event   the same component does the same thing again (a table that sticks and slips), where no mechanism and no law
 //           over time gives a period
-//   none    nothing changes, but the link stands or turns slowly: an equilibrium, looked at every so often
+//   none    nothing changes, but the link stands or turns slowly: an equilibrium, examined at regular times
 // Repeats: the time from the k-th place before to this one, and speeds and spring twists there, are the same, k ≤ 64.
-// Twists of what slips and the elements' own states are not asked: some of them drift.
+// Twists of what slips and the elements' internal states are not compared: some of them drift.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@
 namespace kurbel::agreement {
 
 enum class Motion { repeats, rests, none };
-enum class Base { angle, time, event, none };  // what comes again; none: nothing changes, so that any time is a period
+enum class Base { angle, time, event, none };  // what repeats; none: nothing changes, so that any time is a period
 
 struct SettleSettings {
   double tolerance = 1e-10;
@@ -34,7 +34,7 @@ struct Measured {
   Name name;
   double value = 0, scale = 0;
   double error = 0;     // of three periods that follow each other, and of one with tolerances 100 × looser
-  bool needed = false;  // a study of steady motion must tell it
+  bool needed = false;  // a study of steady motion must report it
 };
 
 struct SettledRun {

@@ -70,7 +70,7 @@ TEST_F(CommandLine, ValidRunEndsWithZeroAndWritesItsFiles) {
   EXPECT_TRUE(file("out/trajectory.csv"));
 }
 
-// A test's record: what is left of the run's own trajectory is nothing; what is wrong with it is told before anything runs.
+// A test's record: what is left of the run's own trajectory is nothing; what is wrong with it is reported before a run.
 TEST_F(CommandLine, AMeasurementIsLaidOverARunOrRefused) {
   const std::string text = scene("until = \"0.3 s\"\n");
   ASSERT_EQ(kurbel({"run", text, "--no-error", "--no-trials", "--out", "out", "--format", "csv,xlsx"}).code, 0);
@@ -256,7 +256,7 @@ TEST_F(CommandLine, BadOptionsAreRefusedBeforeAnythingRuns) {
   }
 }
 
-// What lies in a results folder is never looked at; a measured setting is used only where its file is named.
+// What lies in a results folder is never read; a measured setting is used only where its file is named.
 TEST_F(CommandLine, FiguresDoNotDependOnFilesOfEarlierRuns) {
   const std::string path = scene("until = \"0.2 s\"\n");
   const auto results = [&](const std::vector<std::string>& more) {
@@ -406,7 +406,7 @@ TEST_F(CommandLine, RunawayEndsWithThreeAnEventAndADiagnosis) {
   EXPECT_EQ(summary["events"][0]["what"], "ran away: passed its max_speed");
 }
 
-// A clearance that no pin has: the motion loses its values at the first contact. Nothing of that is told as a figure.
+// A clearance that no pin has: the motion loses its values at the first contact. Nothing of that is given as a figure.
 TEST_F(CommandLine, FiguresWithoutAValueAreOmittedOfAnIncompleteRun) {
   std::string text = text_of(std::string(KURBEL_SOURCE_DIR) + "/scenes/worn_crank_pin.toml");
   const auto put = [&](const std::string& old, const std::string& value) {
@@ -448,7 +448,7 @@ TEST_F(CommandLine, ColoursWarnOnATerminalOnly) {
   EXPECT_NE(shown.find("\033[33mNOT confirmed\033[0m"), std::string::npos) << shown;
 }
 
-// Figures that are not sure to what was asked for: told in the conclusion, in JSON, in the page, and by the exit code.
+// Figures without the requested accuracy: stated in the conclusion, in JSON, in the page, and by the exit code.
 TEST_F(CommandLine, AnAccuracyThatWasNotConfirmedIsReportedEverywhereAndEndsWithThree) {
   const std::string chain = std::string(KURBEL_SOURCE_DIR) + "/scenes/six_inertia_chain.toml";
   const Ended quiet = kurbel({"run", chain, "--accuracy", "1e-12", "--quiet", "--out", "out"});

@@ -116,7 +116,7 @@ TEST(ExplainedNames, OfTablesAndPlotsOfAllCommands) {
   for (const std::string& place : reported.in_radians) ADD_FAILURE() << place << " is not in the scene's unit of speed";
 }
 
-// A part of a definition's words is not what is asked for.
+// A part of a definition's words is not what was requested.
 TEST(ExplainedNames, NoWordOfAnotherFigureStandsForThem) {
   for (const char* word :
        {"time [s]", "f [Hz]", "RMS", "mean [N·m]", "joint", "states", "moment [N·m]", "largest", "margin [%]"}) {

@@ -331,7 +331,7 @@ TEST_F(Security, ReportAsksNoNetwork) {
 }
 
 TEST_F(Security, LargerFilesAreRefusedAndEndlessOnesNotReadOn) {
-  // Sparse: they take no room, and would take the memory.
+  // Sparse: they take no space on disk, and would take the memory.
   const auto sparse = [](const fs::path& path, std::uintmax_t size) {
     write_text(path, "");
     fs::resize_file(path, size);

@@ -94,7 +94,7 @@ TEST(ReduceCommand, TablesAtAnyNumberOfPositionsAndRefusals) {
   std::string line;
   int lines = 0;
   while (std::getline(in, line)) ++lines;
-  EXPECT_EQ(lines, 1 + 22);  // both dead centres left out
+  EXPECT_EQ(lines, 1 + 22);  // both dead centres omitted
   EXPECT_EQ(kurbel("reduce " + press + " --no-files --positions 0").code, 2);
   const Said unknown = kurbel("reduce " + press + " --no-files --to gearbx.in");
   EXPECT_EQ(unknown.code, 2);

@@ -1,4 +1,4 @@
-// streams_test.cpp — what is said arrives, or its loss is told; options without a value; signals at once; completion.
+// streams_test.cpp — output arrives, or its loss is reported; options without a value; signals at once; completion.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -118,7 +118,7 @@ TEST_F(Streams, SignalInTheFirstMillisecondsEndsWith130) {
 }
 
 // timeout(1) signals its child and the child's group: two signals within microseconds are one, and what was computed is
-// told. A second one later ends at once.
+// reported. A second one later ends at once.
 TEST_F(Streams, TwoSignalsAtOnceAreOne) {
   for (int n = 0; n < 8; ++n) {
     const pid_t child = start({"run", "wheel.toml", "--until", "1000000 s", "--no-files"});

@@ -83,7 +83,7 @@ TEST_F(SweepCommand, WrongOptionsAreReportedBeforeAnythingIsWritten) {
     EXPECT_NE(said.text.find(c.reported), std::string::npos) << c.options << "\n" << said.text;
     EXPECT_FALSE(fs::exists(folder_ / "x.db")) << c.options;
   }
-  // Of a table the heading's place is told.
+  // Of a table the heading's place is reported.
   std::ofstream(folder_ / "w.csv") << "spring.stiffness [kN*m/rad],masss.inertia [kg*m2]\n4,1\n";
   const Said wrong = sweep("--into x.db --variants w.csv");
   EXPECT_EQ(wrong.code, 2);

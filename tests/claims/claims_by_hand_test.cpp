@@ -142,7 +142,7 @@ TEST(Strokes, AreThoseOfALinkThatStopsInItsCycle) {
   EXPECT_TRUE(fluctuates(2, 0));
 }
 
-// Rests between motions of one sense; a shaft that swings to and fro rests where it turns back.
+// Rests between motions of one sense; a shaft that oscillates to and fro rests where it reverses.
 TEST(Sticking, IsNotSaidOfAShaftThatOscillates) {
   Result r = steady_run();
   const auto sticks = [&](double first, double second) {

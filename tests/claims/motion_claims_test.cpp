@@ -68,7 +68,7 @@ TEST(Falling, IsNotSaidOfWhatADriveLeftTurningFaster) {
   EXPECT_NEAR(test::figure(r, "final_speed.drum"), -20 + 3.9 - 0.2, 1e-6);
 }
 
-// What swings through more than half a turn, driven or not, falls nowhere.
+// What oscillates through more than half a turn, driven or not, falls nowhere.
 TEST(Falling, IsNotSaidOfWhatOscillates) {
   const Result r = test::run(R"(
     line = ["source", "wheel"]
@@ -80,7 +80,7 @@ TEST(Falling, IsNotSaidOfWhatOscillates) {
 }
 
 // It falls until the motor is on, is lifted for twice as long, and falls: from v = 10 t₀ to v − 10 (5 − 3 t₀). Sagging by
-// less or more than half a turn, 10 t₀², makes no swing of it.
+// less or more than half a turn, 10 t₀², makes no oscillation of it.
 TEST(Falling, IsSaidOfAWeightThatSaggedAtFirst) {
   for (const double late : {0.5, 0.8}) {
     const Result r = test::run(fmt::format(R"(
@@ -97,7 +97,7 @@ TEST(Falling, IsSaidOfAWeightThatSaggedAtFirst) {
 }
 
 // It falls from 2 s on, is pushed forwards from −10 rad/s by 40 N·m more than it weighs for 0.55 s, to 1 rad/s, and falls on:
-// what it regains, 0.1 of 7.5 rad, makes no swing of it.
+// what it regains, 0.1 of 7.5 rad, makes no oscillation of it.
 TEST(Falling, IsSaidOfAWeightThatIsPushedUpForAMoment) {
   const Result r = test::run(R"(
     line = ["motor", "drum"]
@@ -112,7 +112,7 @@ TEST(Falling, IsSaidOfAWeightThatIsPushedUpForAMoment) {
 }
 
 // It falls by 6.4 rad until the motor stops it, is lifted again by half of that and switched off, while it rises; the edges of
-// "tick" end steps while it does. What it came forwards before and after the switch makes no swing of it.
+// "tick" end steps while it does. What it came forwards before and after the switch makes no oscillation of it.
 TEST(Falling, IsSaidOfAWeightThatStillRisesWhenItsDriveIsSwitchedOff) {
   const Result r = test::run(R"(
     line = ["motor", "drum"]
@@ -352,8 +352,8 @@ TEST(Stalls, AreNotSaidOfWhatNeverTurned) {
   }
 }
 
-// A motor that has run 1 kg·m² up to 1e-4 of its speed, one that is told to start 1 ms before the end, and one that starts anew
-// then: no load holds them.
+// A motor that has run 1 kg·m² up to 1e-4 of its speed, one commanded to start 1 ms before the end, and one that
+// starts anew then: no load holds them.
 TEST(Stalls, AreNotSaidOfWhatHasJustBegun) {
   const char* const late =
       R"(sequence = { steps = [{ at = "0 s", set = "motor", to = 0 }, { at = "0.999 s", set = "motor", to = 1 }] })";
@@ -415,7 +415,7 @@ TEST(Stalls, AreNotLaidToWhatAnOpenClutchParts) {
 }
 
 // A motor of 30 N·m before a crank that weighs 78 N·m rocks it to and fro: so it is said whenever the run ends. What a law over
-// time shakes is not to get round.
+// time shakes is not expected to complete a turn.
 TEST(Cycles, ThatACrankRocksInsteadOfAreMissedAtEveryPhase) {
   const auto crank = [](const char* motor, double until) {
     return test::run(fmt::format(R"(
@@ -610,7 +610,7 @@ TEST(Vibration, ThatDecaysIsSaidWithItsAmplitudes) {
   const double decay = 0.5, w = std::sqrt(200 - decay * decay), half = pi / w;
   EXPECT_NEAR(*vibrates->evidence.value, 0.5 / half, 1e-6);
   // Reversals at k·half, k ≥ 1; those from 3 s on count once the speed has changed its sense within the last quarter.
-  const auto amplitude = [&](double k) {  // of the half swing from k to k + 1 [°]
+  const auto amplitude = [&](double k) {  // of the half oscillation from k to k + 1 [°]
     return 0.5 * 0.025 * std::exp(-decay * k * half) * (1 + std::exp(-decay * half)) * 180 / pi;
   };
   const double first = std::ceil(3 / half), last = std::floor(4 / half) - 1;
@@ -620,8 +620,8 @@ TEST(Vibration, ThatDecaysIsSaidWithItsAmplitudes) {
       << vibrates->text;
 }
 
-// A ripple of 5 Hz, ± 31.4/(2π 5)² rad, on a swing of 1 rad/s and ± 0.5 rad: its reversals are the ripple's, and tell nothing
-// of the swing's amplitude.
+// A ripple of 5 Hz, ± 31.4/(2π 5)² rad, on an oscillation of 1 rad/s and ± 0.5 rad: its reversals are the ripple's,
+// and say nothing about the oscillation's amplitude.
 TEST(Vibration, OfTwoFrequenciesNeitherGrowsNorDecays) {
   const Result r = test::run(R"(
     line = ["source", "arm"]

@@ -44,7 +44,7 @@ struct MeasuredVariant {
   double accuracy = 0;
   bool whole = false;      // measured and judged
   std::string words;       // why not, or why it was not confirmed
-  bool confirmed = false;  // the program says that the accuracy asked for was reached
+  bool confirmed = false;  // the program says that the requested accuracy was reached
   int runs = 0;
   double tolerance = 0;                                // of the run that the figures are from
   std::int64_t flow_calls = 0, flow_calls_of_two = 0;  // of the measurement; of the ladder of two tolerances
@@ -61,7 +61,7 @@ struct MeasureSettings {
 
 MeasuredVariant measure(const Variant& variant, const MeasureSettings& settings);
 
-// Times that a result tells: of figures that are located within the run ("at.peak_torque.shaft"), and of its events
+// Times that a result states: of figures that are located within the run ("at.peak_torque.shaft"), and of its events
 // ("event.clutch.locks#0/3", the first of three of its like: where another run has two, nothing says which of them it is),
 // with their errors where they were measured.
 struct ReportedTime {

@@ -13,7 +13,7 @@ namespace kurbel::coverage {
 std::string lines_of(const MeasuredVariant& variant);
 // What the columns are, as the first lines of a file.
 std::string column_lines();
-// Reads lines back; lines that begin with # are passed over. Throws std::runtime_error with the number of a bad line.
+// Reads lines back; lines that begin with # are skipped. Throws std::runtime_error with the number of a bad line.
 std::vector<MeasuredVariant> read_lines(std::istream& in);
 
 }  // namespace kurbel::coverage

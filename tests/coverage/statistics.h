@@ -25,7 +25,7 @@ inline bool every_figure(const JudgedFigure& f) { return f.kind == JudgedFigure:
 inline bool every_time(const JudgedFigure& f) { return f.kind == JudgedFigure::Kind::time; }
 inline Verdict stated_verdict(const JudgedFigure& f) { return f.verdict; }
 
-// Of the figures that were judged: covered or missed. Times and numbers of impacts are asked for by themselves.
+// Of the figures that were judged: covered or missed. Times and numbers of impacts are requested by themselves.
 Share share_of(const std::vector<MeasuredVariant>& variants, const OfRun& run = every_run,
                const OfFigure& figure = every_figure, const VerdictOf& verdict = stated_verdict);
 

@@ -25,7 +25,7 @@ struct Variant {
 
 // Names of scenes/*.toml, in alphabetic order.
 const std::vector<std::string>& scene_names();
-// What a variant is asked for: every method of the reduced model, and 1e-2 … 1e-9.
+// The settings of a variant: every method of the reduced model, and 1e-2 … 1e-9.
 const std::vector<std::string>& methods();
 const std::vector<double>& accuracies();
 

@@ -1,4 +1,4 @@
-// backlash_test.cpp — flanks with a gap: two published laws of contact, the step torque, impacts, and the gap left out.
+// backlash_test.cpp — flanks with a gap: two published laws of contact, the step torque, impacts, and the gap omitted.
 #include "drivetrain/couplings/backlash.h"
 
 #include <fmt/format.h>

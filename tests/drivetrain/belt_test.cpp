@@ -120,7 +120,7 @@ TEST(ElasticBelt, SlipsFromItsLimitOn) {
   EXPECT_NEAR(test::series(r, "slipped_angle.belt").back(), slipped, 1e-8);
   EXPECT_NEAR(r.energy.by_account.at("belt"), -limit * slipped, 1e-8);
 }
-// A pulse: slips, grips again with the angle slipped, and swings on. Damped and undamped, forwards and backwards.
+// A pulse: slips, grips again with the angle slipped, and vibrates on. Damped and undamped, forwards and backwards.
 TEST(ElasticBelt, GripsAgainAfterAPulse) {
   for (const std::string damping : {"", "\ndamping_ratio = 0.05"})
     for (const double sense : {1.0, -1.0}) {

@@ -1,4 +1,4 @@
-// beyond_tables_test.cpp — what a motion takes from beyond the end of a table is told, and has no error bar.
+// beyond_tables_test.cpp — what a motion takes from beyond the end of a table is reported, and has no error bar.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -169,8 +169,8 @@ const std::string part = "[[0, 500], [60, 100]]", held_on = "[[0, 500], [60, 100
 std::string conclusion(const StudyOutput& output) { return output.conclusion(); }
 bool says_outside(const std::string& text) { return text.find("outside its table") != std::string::npos; }
 
-// Forces and balancing torque under a load from outside of its table are told without an error, what the given motion alone
-// makes with it; both problems.
+// Forces and balancing torque under a load from outside of its table are stated without an error, what the given motion
+// alone makes with it; both problems.
 TEST(BeyondTables, ForcesUnderALoadFromOutsideHaveNoErrors) {
   for (const auto& [points, outside] : {std::pair(part, true), std::pair(held_on, false)}) {
     const Forces f = find_forces(press_known_over(points, shunt), {});
@@ -227,7 +227,7 @@ TEST(BeyondTables, ForcesOfAGivenMotionDependOnNoMotor) {
   EXPECT_TRUE(says_outside(conclusion(output_of(f))));
 }
 
-// A load that the operating sequence leaves off asks for nothing.
+// A load that the operating sequence leaves off needs nothing.
 TEST(BeyondTables, ALoadThatIsOffIsTakenFromNowhere) {
   const Scene off =
       press_known_over(part, shunt, R"(sequence = { steps = [{ at = "0 s", set = "press.load2", to = 0 }] })");
@@ -332,7 +332,7 @@ run = {{ until = "5 s", accuracy = 1e-6 }}
   EXPECT_LT(left, 28) << "or the test proves nothing";
 }
 
-// Every scene of the tree: a table that its trajectory leaves is told of.
+// Every scene of the tree: a table that its trajectory leaves is reported.
 TEST(BeyondTables, OfAllScenesEachLeavingIsReported) {
   int watched = 0;
   for (const auto& entry : fs::directory_iterator(source_path("scenes"))) {

@@ -1,5 +1,5 @@
 // connections_test.cpp — every type of connection against one demand: the torques on both of its sides are those that it
-// tells of, and together they take from the machine what it stores and loses.
+// reports, and together they take from the machine what it stores and loses.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -237,7 +237,7 @@ TEST(DcSeriesCircuit, RunsAwayAndDrivenBackwardsExcitesItselfInWords) {
   EXPECT_NE(back.diagnosis.find(fmt::format("t = {:.5g}", t)), std::string::npos) << back.diagnosis << t;
 }
 
-// A reversed armature turns the torque round, with the same current: the mirror image of the start forwards.
+// A reversed armature reverses the torque, with the same current: the mirror image of the start forwards.
 TEST(DcSeriesCircuit, ReversedItStartsBackwards) {
   for (const char* inductance : {"inductance = \"0.08 H\"", ""}) {
     const std::string text = test::with(

@@ -153,7 +153,7 @@ TEST(EngineTorque, IsThatOfSliderCranksWithTheirPhases) {
   EXPECT_NEAR(engine.energy.by_account.at("engine"), work, 1e-9 * std::abs(work));
 }
 
-// Three cylinders of a two-stroke engine, each a triangle of 60 N·m over 180°: 45 N·m in the mean, 10 turns.
+// Three cylinders of a two-stroke engine, each a triangle of 60 N·m over 180°: 45 N·m on average, 10 turns.
 TEST(EngineTorque, DoesTheWorkOfItsMeanTorque) {
   const Result r = run(fmt::format(R"(
 line = ["drive", "engine"]

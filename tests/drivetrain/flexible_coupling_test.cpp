@@ -176,7 +176,7 @@ struct Rubber {
   }
 };
 
-// The coupling between a frame and a shaft that is swung, after a hundred times its relaxation time.
+// The coupling between a frame and a shaft that is forced to oscillate, after a hundred times its relaxation time.
 TEST(RubberCoupling, TransmitsTheComplexStiffnessOfItsBranches) {
   Rubber rubber;
   rubber.branch[1].relaxation_time = 0.1;

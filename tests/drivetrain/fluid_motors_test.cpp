@@ -92,8 +92,8 @@ TEST(PneumaticMotor, StraightLineHasItsGreatestPowerAtHalfTheFreeSpeed) {
   EXPECT_NEAR(at, 300, 0.1);
 }
 
-// Whatever the bend: M_s at standstill, none at the free speed, falling between, and the greatest power is that asked
-// for.
+// Whatever the bend: M_s at standstill, none at the free speed, falling between, and the greatest power is the
+// requested one.
 TEST(PneumaticMotor, BendPassesTheCataloguesPower) {
   for (const double number : {0.15, 0.2, 0.25, 0.3, 0.38}) {
     const PneumaticMotor m{20, 600, PneumaticMotor::bend_for(number)};

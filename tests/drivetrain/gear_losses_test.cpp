@@ -153,7 +153,7 @@ TEST(GearLosses, PowerRatioIsTheEfficiencyOfItsDirection) {
           }
 }
 
-// Torques swing, so that power changes sides while it runs: every switch is an event, and the energies still balance.
+// Torques oscillate, so that power changes sides while it runs: every switch is an event, and energies still balance.
 TEST(GearLosses, EnergyBalancesWhileThePowerChangesSides) {
   for (const double bearing : {0.0, 0.3}) {
     const Result r = run(fmt::format(R"(

@@ -47,7 +47,7 @@ elasticity = true
 const std::string free_drive = "kind = \"torque source\"\ntorque = \"40 N*m\"\ninertia = \"0.05 kg*m2\"";
 const std::string varying = "mesh_variation = [0.3, 0.1]\nmesh_phase = [\"0 deg\", \"40 deg\"]\n";
 
-// θ̈ + (c/J) θ̇ + (k/J) f θ = const with a small a₁: the twist swings by θ₀ a₁ k/|k − J ω² + i ω c| at ω = z₁ Ω.
+// θ̈ + (c/J) θ̇ + (k/J) f θ = const with a small a₁: the twist vibrates by θ₀ a₁ k/|k − J ω² + i ω c| at ω = z₁ Ω.
 TEST(GearMesh, TwistOscillatesAtTheToothFrequencyAsFirstOrderTheorySays) {
   const double k = 20e3, c = 4, a = 1e-3, reduced = 0.2 / 4, torque = 60.0 / 2;
   for (const double speed : {5.0, 20.0, 31.0, 45.0}) {  // resonance at √(k/J)/z₁ = 31.6 rad/s

@@ -98,7 +98,7 @@ TEST(GearboxHousing, RigidSupportLeavesNoTraceInTheMotion) {
     EXPECT_NEAR(figure(run(a), name), figure(run(b), name), 1e-9 * std::abs(figure(run(b), name))) << name;
 }
 
-// As the support stiffens the housing comes to rest; its swing falls as 1/k.
+// As the support stiffens the housing comes to rest; its amplitude falls as 1/k.
 TEST(GearboxHousing, StiffSupportTendsToTheRigidOne) {
   const Result rigid = run(elastic_bearing("[effects]\nelasticity = [\"spring\"]\n"), false);
   double last = 0;

@@ -31,7 +31,7 @@ const EquivalentCircuit ideal{400, 50, 2, 0.002, 0.2, 1, 1, 100};
 
 double breakdown_slip(const EquivalentCircuit& circuit) { return circuit.characteristic().breakdown_slip; }
 
-// ∂M/∂ω of a small swing of the speed about a slip: the two-axis model's, by its four currents.
+// ∂M/∂ω of a small oscillation of the speed about a slip: the two-axis model's, by its four currents.
 class SmallOscillations {
  public:
   SmallOscillations(const EquivalentCircuit& circuit, double slip) : motor_{circuit, circuit.characteristic()} {

@@ -208,7 +208,7 @@ TEST(GearPair, OverlapIsTheAdvanceOfAToothOverItsPitch) {
   EXPECT_NEAR(solve_gear_pair(d).overlap_ratio, 35e-3 * std::tan(25 * degree) / pitch, 1e-12);
 }
 
-// ∫ r² dA of the sections, told along their outline, ∮ (r²/4)(x dy − y dx): Simpson on each straight piece is exact.
+// ∫ r² dA of the sections, taken along their outline, ∮ (r²/4)(x dy − y dx): Simpson on each straight piece is exact.
 TEST(GearWheel, InertiaIsThatOfItsDrawnOutline) {
   for (const int teeth : {6, 17, -60}) {
     GearPairData d;

@@ -76,7 +76,7 @@ accuracy = 1e-9
   EXPECT_NEAR(figure(r, "final_speed.drive"), last + (44 - last) * std::exp(-until / time), 1e-7);
 }
 
-// A motor whose field is reversed is its own mirror image: steady currents at −ω, and the torque turned round.
+// A motor whose field is reversed is its own mirror image: steady currents at −ω, and the torque reversed.
 TEST(TwoAxisMotor, ReversedStartsWithTheSteadyCurrentsOfItsMirrorImage) {
   const EquivalentCircuit circuit{220, 60, 2, 0.435, 0.816, 0.754, 0.95, 26.13};
   const TwoAxisMotor motor{circuit, circuit.characteristic()};

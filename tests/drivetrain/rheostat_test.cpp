@@ -156,7 +156,7 @@ TEST(Rheostat, ByTimesItsStagesEndAtThem) {
   EXPECT_NEAR(test::series(r, "speed.motor")[150], static_cast<double>(speed), 1e-7);
 }
 
-// A stage too small to lift the current above that of switching is passed over; one that starts turning begins there.
+// A stage too small to lift the current above that of switching is skipped; one that starts turning begins there.
 TEST(Rheostat, StagesThatDoNothingArePassedOver) {
   const Result r = run(with(hoist, "\"220 V\"", "\"150 V\"") + "start = { speed = \"60 rad/s\", on = \"motor\" }\n");
   ASSERT_TRUE(r.complete) << r.diagnosis;
@@ -165,7 +165,7 @@ TEST(Rheostat, StagesThatDoNothingArePassedOver) {
   EXPECT_NEAR(test::series(r, "torque.motor")[0], 1.4 * (150 - 1.4 * 60) / 0.7, 1e-9);
 }
 
-// Off at 3 s, on at 8 s: the weight has slowed it down by 100 rad/s, and the stages that suit that speed come again.
+// Off at 3 s, on at 8 s: the weight has slowed it down by 100 rad/s, and the stages that suit that speed repeat.
 TEST(Rheostat, IsInTheCircuitAgainAtEachStart) {
   const std::string twice = with(hoist, "until = \"6 s\"", "until = \"12 s\"") + R"([sequence]
 steps = [{ at = "3 s", set = "motor", to = 0 }, { at = "8 s", set = "motor", to = 1 }]

@@ -131,7 +131,7 @@ TEST(DiagramsZero, APressureThatCountsFromGasExchangeIsNoticed) {
   EXPECT_NEAR(with("firing"), 757.4, 0.1) << "as said";
 }
 
-// The same diagram from firing, moved, turned round, and as torque.
+// The same diagram from firing, moved, reversed, and as torque.
 TEST(DiagramsZero, PeakAndWorkShowWhereADiagramBegins) {
   const auto refusal = [](const std::string& diagram, const std::string& more = "") {
     try {

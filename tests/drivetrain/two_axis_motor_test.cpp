@@ -105,7 +105,7 @@ TEST(TwoAxisMotor, ElectricalPowerIsHeatFieldAndShaft) {
 }
 
 // Switched on with the rotor held the circuit is linear: L di/dt = A i + u, solved by its eigenvalues. The torque
-// swings with the frequency of the mains, to a first peak far above the steady starting torque.
+// oscillates with the frequency of the mains, to a first peak far above the steady starting torque.
 TEST(TwoAxisMotor, SwitchedOnItsTorqueOscillatesWithTheMains) {
   const Result r =
       run(krause_scene("[drum]\nkind = \"prescribed speed\"\non = \"motor\"\nspeed = \"0 rad/s\"\n[run]\nuntil "
@@ -149,7 +149,7 @@ TEST(TwoAxisMotor, RunsUpToSynchronousSpeedWithItsEnergyInBalance) {
   EXPECT_LT(r.energy.relative, 1e-8);
 }
 
-// Command −1 turns the field round: it brakes through standstill and runs up backwards; by its circuit and by Kloss.
+// Command −1 reverses the field: it brakes through standstill and runs up backwards; by its circuit and by Kloss.
 TEST(TwoAxisMotor, IsPluggedAndRunsBackwards) {
   for (const char* effects : {"", "[effects]\ntransients = false\n"}) {
     const Result r =

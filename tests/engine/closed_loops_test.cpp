@@ -131,8 +131,8 @@ TEST(ClosedLoop, RigidWaysShareByTheirStiffness) {
   }
 }
 
-// A gear that closes the loop, its losses left out: what its coupling passes goes through its teeth, whenever it is asked
-// for (once each torque was added to the one before it: MN·m after some seconds).
+// A gear that closes the loop, its losses omitted: what its coupling passes goes through its teeth, whenever it is read
+// (once each torque was added to the one before it: MN·m after some seconds).
 TEST(ClosedLoop, GearThatClosesItPassesWhatItsCouplingPasses) {
   std::string text =
       with(test::project_text("scenes/back_to_back_rig.toml"), "elasticity = true", "gear_losses = false");

@@ -1,5 +1,5 @@
 // contacts_backwards_test.cpp — contacts that hold, creep and let go backwards, behind gears, many at once, and where
-// more of them hold than are needed; with what reactions and squares are told of them.
+// more of them hold than are needed; with the reactions and squares reported of them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -177,7 +177,7 @@ TEST(ContactsBackwards, WithoutEventsInBalanceItMovesOnAsItGoes) {
 
 // --- reactions and squares -------------------------------------------------------------------------------------------
 
-// With its sun held: M_ring of the input, (z_s + z_r)/z_r of it at the carrier, and the sun bears the difference.
+// With its sun held: M_ring of the input, (z_s + z_r)/z_r of it at the carrier, and the sun carries the difference.
 TEST(Reactions, AHeldSunCarriesTheDifferenceOfRingAndCarrier) {
   const Result r = run(R"(
 line = ["drive", "gear", "fan"]

@@ -22,7 +22,7 @@ using test::run;
 
 constexpr double shear = 79.3e9, density = 7850;
 
-// A round steel shaft, its inertia and its exact 2 × 2 transfer of (φ, M) along it.
+// A solid steel shaft, its inertia and its exact 2 × 2 transfer of (φ, M) along it.
 struct Steel {
   double length, diameter;
   double polar() const { return M_PI / 32 * std::pow(diameter, 4); }
@@ -117,7 +117,7 @@ TEST(LobattoElement, keeps_inertia_and_static_stiffness) {
   }
 }
 
-// Where d_element(ω) lets the ends of the case swing, against tan βL: degree 4 misses the first mode by 8e-7, 6 the
+// Where d_element(ω) lets the ends of the case vibrate, against tan βL: degree 4 misses the first mode by 8e-7, 6 the
 // second by 2e-6 (theory 5.20), and the bound is one.
 TEST(LobattoElement, converges_as_known) {
   const Steel shaft{40, 0.4};
@@ -247,7 +247,7 @@ run = { until = "2 s" }
 
 // Forced response: with both ends' inertias driven at one end, what passes the middle by the wave equation. The free body of
 // half the element's points would stand for the half shaft's inertia to 0.33 % at degree 5 and 0.6 of the first frequency;
-// the slope of the polynomial through them tells it to 2e-7.
+// the slope of the polynomial through them gives it to 2e-7.
 TEST(ContinuousShaft, forced_response_is_that_of_the_waves) {
   const Scene scene = test::scene_from(R"(
 line = ["engine", "shaft", "propeller"]

@@ -127,7 +127,7 @@ double most_off(const Curve& a, const Curve& b) {
   return most;
 }
 
-// A piece of more than three quarters of two turns becomes two; periods are told apart within two turns.
+// A piece of more than three quarters of two turns becomes two; periods are distinguished within two turns.
 TEST(Curve, OverAnAngleIsTheSameLawInPiecesThatAreToldApart) {
   const double turns[] = {4 * M_PI, 2 * M_PI, M_PI / 3};
   for (const Curve::Form form : {Curve::Form::linear, Curve::Form::smooth})

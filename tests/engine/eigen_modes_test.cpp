@@ -276,7 +276,7 @@ inertia = "0.6 kg*m2"
 elasticity = true
 )";
 
-// Slopes of motor and fan stand in C at the speed asked for; the mean torque in the coupling is the fan's where steady.
+// Slopes of motor and fan stand in C at the requested speed; the mean torque in the coupling is the fan's where steady.
 TEST(Linearisation, HoldsTheSlopesOfMotorAndLoadAtTheOperatingPoint) {
   const Scene scene = test::scene_from(motor_and_fan);
   const auto model = compile(scene, scene.effects);
@@ -308,7 +308,7 @@ TEST(Linearisation, MechanismEntersByTheMeanOfItsInertiaOrByThatAtTheAngle) {
   EXPECT_GT(greatest - least, 1e-3 * sum);
 }
 
-// A prescribed speed holds its shaft: the other one swings against it at √(k/J).
+// A prescribed speed holds its shaft: the other one vibrates against it at √(k/J).
 TEST(Linearisation, PrescribedSpeedHoldsItsShaft) {
   const Scene scene = test::scene_from(R"(
 line = ["drive", "c", "disc"]

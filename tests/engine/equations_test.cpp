@@ -242,7 +242,7 @@ accuracy = 1e-9
   EXPECT_LE(r.energy.relative, 1e-9);
 }
 
-// Dry friction reverses with the motion: M sin(ω t) above the limit swings the rotor to and fro, and energy balances.
+// Dry friction reverses with the motion: M sin(ω t) above the limit moves the rotor to and fro, and energy balances.
 TEST(Standstill, FrictionReversesWithTheMotion) {
   const Result r = run(R"(
 line = ["rotor"]

@@ -1,5 +1,5 @@
 // event_kinds_test.cpp — every event of every example scene says what kind it is of, in agreement with its words; no
-// figure hangs on the words.
+// figure depends on the words.
 #include <gtest/gtest.h>
 
 #include <algorithm>

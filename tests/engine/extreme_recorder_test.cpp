@@ -1,4 +1,4 @@
-// extreme_recorder_test.cpp — extremes within steps: which are found, and how little is asked for them.
+// extreme_recorder_test.cpp — extremes within steps: which are found, and by how few evaluations.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 using std::numbers::pi;
 using test::scene_from;
 
-// A step as long as it is told to be.
+// A step of the given length.
 class OneStep final : public Stepper {
  public:
   using Stepper::interpolate;
@@ -57,7 +57,7 @@ TEST(ExtremeRecorder, FindsAPeakThatThreeSamplesOnALineHide) {
   }
 }
 
-// A recorder over equal steps of a function of time, and when it last asked for a value within a step.
+// A recorder over equal steps of a function of time, and when it last requested a value within a step.
 struct Watched {
   ExtremeRecorder::Found found;
   double asked = -HUGE_VAL;

@@ -90,7 +90,7 @@ TEST(Floquet, ExponentsOfMathieusEquationAreThePublishedOnes) {
   struct Case {
     double a, q;
     double nu;  // about: which branch
-    int teeth;  // periods in a round
+    int teeth;  // periods in a cycle
   };
   for (const Case c : {Case{0.5, 0.1, 0.7, 20}, Case{2.3, 0.6, 1.5, 20}, Case{1.05, 0.2, 1, 1}, Case{1, 0.45, 1, 1},
                        Case{4.1, 0.9, 2, 1}, Case{6.2, 0.9, 2.5, 3}, Case{12.3, 1.5, 3.5, 20}}) {
@@ -224,7 +224,7 @@ TEST(Floquet, ModesOfTheCallerAreComparedWith) {
   }
 }
 
-// A crank behind a soft coupling, struck: what the run does beside its cycle, round by round and crossing by crossing.
+// A crank behind a soft coupling, struck: what the run does beside its cycle, cycle by cycle and crossing by crossing.
 TEST(Floquet, AStruckCrankDriveRingsDownByItsExponent) {
   const Scene scene = scene_from(
       "line = [\"motor\", \"c\", \"crank\"]\n"
@@ -238,7 +238,7 @@ TEST(Floquet, AStruckCrankDriveRingsDownByItsExponent) {
                                    [](const FloquetExponent& e) { return e.exponent.imag() > 1; });
   ASSERT_NE(swings, spectrum.exponents.end());
   EXPECT_GT(swings->share, 0.5);
-  // Twists beside the cycle, of a round's samples; the disturbance is small enough to be linear.
+  // Twists beside the cycle, of a cycle's samples; the disturbance is small enough to be linear.
   const auto model = cycle.map->shared_model();
   const PoincareSection& section = cycle.map->section();
   Equations equations(model, false);
@@ -279,7 +279,7 @@ TEST(Floquet, AStruckCrankDriveRingsDownByItsExponent) {
   const Eigen::Vector2d fit = least_squares(before, after);
   EXPECT_NEAR(0.5 * std::log(-fit[1]) / spectrum.time, swings->exponent.real(), 1e-6);
   EXPECT_NEAR(0.5 * fit[0] / std::sqrt(-fit[1]), std::cos(swings->phase_advance), 1e-6);
-  // Multipliers alone leave the multiple of the round's frequency open: here it is not the nearest to 0.
+  // Multipliers alone leave the multiple of the cycle's frequency open: here it is not the nearest to 0.
   EXPECT_GT(swings->phase_advance, 2 * pi);
 }
 

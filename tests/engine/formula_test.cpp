@@ -172,7 +172,7 @@ TEST(Formula, ValuesAndSlopesOfAHundredRandomOnesAreThoseOfArithmeticAndOfDiffer
     const auto read = read_formula(e.text, names_of_x(), error);
     ASSERT_TRUE(read) << e.text << ": " << error.text << " at " << error.column;
     std::vector<double> knots;
-    if (read->formula.knots(-1.7, 2.3, knots)) continue;  // told of, e.g. where it grows beyond what can be computed
+    if (read->formula.knots(-1.7, 2.3, knots)) continue;  // reported, e.g. where it grows beyond what can be computed
     const Curve curve = curve_of(e.text, -1.7, 2.3);
     kinks += static_cast<int>(curve.x().size()) - 2;
     for (std::size_t i = 0; i + 1 < curve.x().size(); ++i)
@@ -198,7 +198,7 @@ TEST(Formula, ValuesAndSlopesOfAHundredRandomOnesAreThoseOfArithmeticAndOfDiffer
 
 // Of functions of several values: against the C library and its derivatives, on a curve all round the origin.
 TEST(Formula, DirectionAndLengthOfAPointAreThoseOfTheLibrary) {
-  // (x, y) = (cos u + 0.3, 1.2 sin u − 0.1) goes round the origin.
+  // (x, y) = (cos u + 0.3, 1.2 sin u − 0.1) encircles the origin.
   const std::string px = "(cos(x) + 0.3)", py = "(1.2*sin(x) - 0.1)";
   const Curve direction = curve_of(fmt::format("atan2({}, {})/1 [rad]", py, px), -2.9, 4.5);
   const Curve length = curve_of(fmt::format("hypot({}, {})", px, py), -2.9, 4.5);
@@ -266,7 +266,7 @@ TEST(Formula, WhatIsConstantOnItsPieceHasNoSlope) {
   for (const double x : {-0.5, 0.0, 0.7}) EXPECT_EQ(curve_of("x^0", -1, 1).value(Dual<1>::input(x, 0)).d[0], 0) << x;
 }
 
-// By its nodes, which look for kinks and tell values where it is read, and by its pieces, which run.
+// By its nodes, which look for kinks and give values where it is read, and by its pieces, which run.
 TEST(Formula, NodesAndPiecesComputeTheSameOfAnglesOfManyTurns) {
   for (const char* text : {"cos(x + 1e11)", "sin(x - 7^exp(2.6))", "cos(x + 1e9)", "sin(1e9*x)", "tan(x + 1e9)"}) {
     UnitError error;
@@ -298,7 +298,7 @@ TEST(Formula, ABranchThatTouchesInTheMiddleIsTheOneBesideIt) {
   EXPECT_NEAR(shifted.value(0.9), 1 + std::pow(0.9, 20), 1e-15);
 }
 
-// Hertz: F = k d^1.5 in contact, nothing apart; its root is asked for where there is contact only.
+// Hertz: F = k d^1.5 in contact, nothing apart; its root is evaluated where there is contact only.
 TEST(Formula, ABranchThatIsNotTakenNeedNoValue) {
   const Curve hertz = curve_of("if(x > 2, (x - 2)^1.5, 0)", 0, 4);
   EXPECT_EQ(hertz.value(1.0), 0);

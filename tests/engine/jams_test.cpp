@@ -1,5 +1,5 @@
 // jams_test.cpp — machines that cannot go on: held at rest, thrown back, rocking, or jammed in motion; each ends in
-// order, with its energy balanced and as many events as its swings make.
+// order, with its energy balanced and as many events as its oscillations make.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ bool has_note(const Result& r, const std::string& words) {
 }
 
 // A press that cannot break its sheet is thrown back by its couplings, out of the working zone. Its main coupling
-// swings at 14 Hz, its gearbox at 65 Hz; a swing makes six events at most (rest, away, two edges there and back).
+// vibrates at 14 Hz, its gearbox at 65 Hz; a cycle makes six events at most (rest, away, two edges there and back).
 constexpr double events_a_second = 6 * 70, events_at_all = 50;
 
 std::string orderly(const Result& r, double until) {

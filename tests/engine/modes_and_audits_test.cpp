@@ -46,7 +46,7 @@ TEST(LinearDrive, MeanTorqueOfACouplingIsWhatDrivesTowardsAHeldShaft) {
   EXPECT_NEAR(geared.joints[0].torque, 100, 1e-10);
 }
 
-// Wheel 1 is held: wheel 2 swings on k i² about its own axis.
+// Wheel 1 is held: wheel 2 vibrates on k i² about its own axis.
 TEST(LinearDrive, MeshBehindAHeldWheelHasItsStiffnessByTheSquareOfItsRatio) {
   const Scene scene = scene_from(
       "line = [\"a\", \"mesh\", \"b\"]\na = { kind = \"prescribed speed\", speed = \"30 rad/s\" }\n" + body("b", 3) +
@@ -186,7 +186,7 @@ run = {{ until = "{4:.17g} s", start = {{ speed = "{5} rad/s" }} }}
   EXPECT_NEAR(static_cast<double>(steps[1]), static_cast<double>(steps[0]), 0.02 * static_cast<double>(steps[0]));
 }
 
-// An oscillator whose states are told in other units, with their scales.
+// An oscillator whose states are given in other units, with their scales.
 class Scaled final : public OdeSystem {
  public:
   Scaled(double first, double second) : ratio_(first / second) { pattern_ = {2, {0, 2, 4}, {0, 1, 0, 1}}; }

@@ -277,7 +277,7 @@ TEST(Orbit, TheStartDecidesWhatIsKept) {
   EXPECT_EQ(standing.kind, Orbit::Kind::at_rest) << standing.words;
 }
 
-// Every example scene: what is found comes again, and the run does not leave it.
+// Every example scene: what is found repeats, and the run does not leave it.
 TEST(Orbit, OfExampleScenesRepeats) {
   for (const char* name : {"crank_press", "compressor", "single_cylinder_engine", "piston_pump"}) {
     SCOPED_TRACE(name);
@@ -305,7 +305,7 @@ TEST(Orbit, IsTheSameFromDifferentStarts) {
   }
 }
 
-// Rubber's branches are states: their creep is among the unknowns, with the multiplier that a disturbed round has.
+// Rubber's branches are states: their creep is among the unknowns, with the multiplier that a disturbed cycle has.
 TEST(Orbit, InternalStatesAreAmongTheUnknowns) {
   const Scene scene = scene_from(std::string("line = [\"motor\", \"rubber\", \"crank\"]\n") + dc_motor +
                                  "rubber = { kind = \"rubber coupling\", stiffness = \"2 kN*m/rad\", branches = [{ "
@@ -324,8 +324,8 @@ TEST(Orbit, InternalStatesAreAmongTheUnknowns) {
   EXPECT_LT(((above - below) / 2 - orbit.point.derivative * step).cwiseAbs().maxCoeff(), 3e-5 * h);
 }
 
-// A load that comes and goes by a repeated sequence: the run alone comes to it, each round by a ratio nearer. What it has
-// still to go is told.
+// A load that comes and goes by a repeated sequence: the run alone comes to it, each cycle by a ratio nearer. What is
+// left of the way is reported.
 TEST(Orbit, WhatTheRunAloneCameToIsTheFartherOffTheSlowerItSettles) {
   const Orbit orbit = orbit_of(
       "line = [\"motor\", \"clutch\", \"load\"]\n"
@@ -339,12 +339,12 @@ TEST(Orbit, WhatTheRunAloneCameToIsTheFartherOffTheSlowerItSettles) {
   Eigen::VectorXd z = orbit.point.z;
   for (int i = 0; i < 200; ++i) z = orbit.map->image(z, false).z;
   const double off = (z - orbit.point.z).cwiseAbs().maxCoeff();
-  EXPECT_GT(off, 2 * orbit.point.residual);  // a round's change is not the error
+  EXPECT_GT(off, 2 * orbit.point.residual);  // a cycle's change is not the error
   EXPECT_LT(off, 1.2 * orbit.point.still_to_come() + 1e-11);
   EXPECT_LT((z - orbit.point.z - orbit.point.to_come).cwiseAbs().maxCoeff(), 0.2 * off + 1e-11);
 }
 
-// However many events a round holds: a brake of 5 N·m grips 150 times a round of 3.1 s, 10 ms on, 10 ms off, and 0.1 s
+// However many events a cycle holds: a brake of 5 N·m grips 150 times a cycle of 3.1 s, 10 ms on, 10 ms off, and 0.1 s
 // off at its end. A DC motor behind it is linear, so its periodic speed is a sum of exponentials.
 // A sequence that takes 2 s repeats by itself, a load over time each p: the motion repeats after their common period.
 TEST(Orbit, ASequenceAndALawOverTimeRepeatTogether) {
@@ -379,7 +379,7 @@ TEST(Orbit, ASequenceOfManyStepsRepeats) {
   ASSERT_EQ(orbit.kind, Orbit::Kind::cycle) << orbit.words;
   EXPECT_NEAR(orbit.point.time, strokes * 2 * pulse + pause, 1e-9);
   EXPECT_LT(orbit.cycles, 390);  // turns until e^(-κ t) is 1e-7
-  // Speed at the section, in the middle of the widest gap: of its round from there on, in which every interval brings it
+  // Speed at the section, in the middle of the widest gap: of its cycle from there on, in which each interval brings it
   // nearer to where the motor balances, e^(-κ t).
   double factor = 1, offset = 0;
   const auto go = [&](double time, double towards) {
@@ -392,8 +392,8 @@ TEST(Orbit, ASequenceOfManyStepsRepeats) {
 }
 
 // Steps that wait for the motion: a brake grips over each turn's first quarter. A DC motor is linear, so each part is an
-// exponential in time, φ(t) = ω_b t + (ω_a − ω_b)(1 − e^(−κt))/κ; round by round from any speed. Its round is one turn, with
-// the elasticity of a shaft, too: not two or three of them, whatever the run left unsettled.
+// exponential in time, φ(t) = ω_b t + (ω_a − ω_b)(1 − e^(−κt))/κ; cycle by cycle from any speed. Its cycle is one turn,
+// with the elasticity of a shaft, too: not two or three of them, whatever the run left unsettled.
 std::string gripped_each_turn(const std::string& shaft) {
   return "line = [\"motor\", " + std::string(shaft.empty() ? "" : "\"shaft\", ") +
          "\"brake\"]\nmotor = { kind = \"dc shunt motor\", stall_torque = \"60 N*m\", no_load_speed = \"40 rad/s\", "
@@ -500,8 +500,8 @@ motor = { kind = "induction motor", rated_power = "4 kW", rated_speed = "1440 rp
   EXPECT_EQ(switched_until(*model, {}, {3, y, modes}), 5);
 }
 
-// What time drives repeats in its time, and three periods take three; no period of its own is sought for it, whether a torque
-// swings or a speed that is given.
+// What time drives repeats in its time, and three periods take three; no period of its own is sought for it, whether
+// a torque oscillates or a prescribed speed.
 TEST(Orbit, PeriodsOfWhatTimeDrivesAreItsOwn) {
   const auto shaken = [](const char* by) {
     return scene_from(std::string("line = [\"drive\", \"spring\", \"wheel\"]\n") + by +
@@ -573,7 +573,7 @@ TEST(Orbit, WaitingIsNoCycle) {
 }
 
 // A press on a belt that slips: a turn is not like the one before, but like the one before that. The machine itself, run for
-// 300 turns, tells the time of its last ones.
+// 300 turns, gives the time of its last ones.
 TEST(Orbit, AMotionThatRepeatsAfterTwoCyclesOnly) {
   const Scene scene = scene_from(R"(
 line = ["motor", "flywheel", "belt", "press"]
@@ -610,7 +610,7 @@ elasticity = true
   EXPECT_EQ(orbit.map->options().cycles, 2);
   EXPECT_NEAR(orbit.point.turned, 4 * pi, 1e-9);
   EXPECT_NEAR(orbit.point.time, first + second, 1e-6 * first);
-  // Asked for two cycles, it is the same motion, in the same number of cycles.
+  // With two cycles requested, it is the same motion, in the same number of cycles.
   EXPECT_NEAR(orbit.point.time, find_orbit(model, {.cycles = 2}).point.time, 1e-9);
   EXPECT_EQ(find_orbit(model, {.cycles = 3, .most_periods = 40}).cycles, 120);  // no multiple of two
 }

@@ -210,7 +210,7 @@ TEST(Period, LawsOverTheAngleStartOnAnyTurn) {
   }
 }
 
-// Behind 1009:1000 a law of 72° comes again after 0.2018 turns, and with whole turns never within a thousand: the machine's
+// Behind 1009:1000 a law of 72° repeats after 0.2018 turns, and with whole turns never within a thousand: the machine's
 // cycle is the law's, and what averages over whole turns takes one.
 TEST(Period, ALawThatNeverMeetsATurnKeepsItsOwn) {
   const auto model = compile(test::scene_from(R"(

@@ -134,7 +134,7 @@ TEST(PeriodicSchur, WhatOneFactorWipesOutIsZero) {
       if (i != which) expected.push_back(7 * std::log(std::abs(d[0](i, i))));
     for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(schur.eigenvalues()[j].log_magnitude, expected[j], 1e-11);
     EXPECT_LT(schur.eigenvalues()[3].log_magnitude, -30) << which;  // rounding of one factor
-    EXPECT_GT(schur.eigenvalues()[3].error, 0.01) << which;         // and it is told so
+    EXPECT_GT(schur.eigenvalues()[3].error, 0.01) << which;         // and its error says so
   }
   // Exactly: a column of zeros.
   std::vector<MatrixXd> factors = {random_matrix(random, 3), random_matrix(random, 3)};

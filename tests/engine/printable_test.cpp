@@ -1,4 +1,4 @@
-// printable_test.cpp — no text, whatever its bytes, holds anything that a terminal obeys; sound text stays as it is.
+// printable_test.cpp — no text, whatever its bytes, holds anything that a terminal obeys; valid text stays as it is.
 #include "engine/scene/printable.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST(Printable, WhatATerminalObeysIsShownInWords) {
   EXPECT_EQ(printable(std::string("\0", 1)), "\\x00");
 }
 
-// Random bytes: what comes out is sound UTF-8 without anything to obey, and JSON keeps its meaning.
+// Random bytes: what comes out is valid UTF-8 without anything to obey, and JSON keeps its meaning.
 TEST(Printable, NoBytesGetThrough) {
   std::mt19937 random(7);
   for (int n = 0; n < 2000; ++n) {

@@ -225,7 +225,7 @@ TEST(ReturnMap, ForcedChainSettlesToItsHarmonicResponse) {
   expect_same_set(p.multipliers, expected, 1e-9);
 }
 
-// A crank on an elastic shaft behind a prescribed speed that swings once a turn.
+// A crank on an elastic shaft behind a prescribed speed that oscillates once a turn.
 TEST(ReturnMap, PrescribedSpeedGivesThePeriodAndItsCrankFollows) {
   const auto model = model_of(
       "line = [\"drive\", \"c\", \"crank\"]\n"

@@ -1,4 +1,4 @@
-// rounds_and_steps_test.cpp — rounds of a machine whose speed is given behind a gear, events that time brings, steps
+// rounds_and_steps_test.cpp — cycles of a machine whose speed is given behind a gear, events that time brings, steps
 // whatever the unit of time, and machines over their angle that turn backwards.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ double slope_of_travel(double phi) {
 }
 double crank_inertia(double phi) { return 0.2 + 4 * std::pow(slope_of_travel(phi), 2); }
 
-// --- rounds ----------------------------------------------------------------------------------------------------------
+// --- cycles ----------------------------------------------------------------------------------------------------------
 
 // A law over the angle of a shaft that turns 2.5 times slower repeats after 2.5 turns of the link; with a crank there,
 // too, after five.
@@ -154,7 +154,7 @@ class Explicit final : public OdeSystem {
   SparsityPattern pattern_;
 };
 
-// What holds the steps does not hang on the unit of time.
+// What holds the steps does not depend on the unit of time.
 TEST(ExplicitRungeKutta, DistinguishesStabilityFromAccuracyInAnyUnitOfTime) {
   for (const double unit : {1e-3, 1.0, 1e3}) {
     Explicit stiff([unit](double t, auto y, auto f) {

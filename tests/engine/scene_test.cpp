@@ -73,7 +73,7 @@ TEST(Scene, RunAndTitleAreRead) {
   EXPECT_EQ(scene.run.output, Texts{"wheel"});
 }
 
-// People are told speeds as the scene's first one is written.
+// Messages state speeds as the scene's first one is written.
 TEST(Scene, SpeedsAreReportedInTheUnitOfTheFirst) {
   const auto unit = [](const std::string& first, const std::string& start) {
     std::string text = base;

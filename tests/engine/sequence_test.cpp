@@ -131,7 +131,7 @@ TEST(Sequence, ConditionThatHoldsIsMetAtOnce) {
 }
 
 // Repeated, the machine hunts between two speeds: the period is that of two exponentials.
-// By the clock a round begins every 5 s, and at 12 a minute, however long its steps take; what takes longer delays the next one.
+// By the clock a cycle begins every 5 s, and at 12 a minute, however long its steps take; longer ones delay the next.
 TEST(Sequence, RoundsByTheClock) {
   const std::string once =
       machine("{ set = \"motor\" }, { after = \"2 s\", set = \"motor\", to = 0.2 }", "until = \"21 s\"\n");

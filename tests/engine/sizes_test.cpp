@@ -1,4 +1,4 @@
-// sizes_test.cpp — values that arithmetic cannot bear are refused where they stand; the largest that are not, run or
+// sizes_test.cpp — values too large for arithmetic are refused where they stand; the largest that are not, run or
 // fail in time; large machines compile in time.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

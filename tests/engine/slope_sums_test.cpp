@@ -11,7 +11,7 @@ namespace {
 
 constexpr double untouched = 1e300;
 
-// Vectors of any length and no alignment, with room up to the next multiple of four.
+// Vectors of any length and no alignment, with space up to the next multiple of four.
 struct Case {
   explicit Case(std::size_t states, std::mt19937& random) : size(states) {
     std::normal_distribution<double> any;

@@ -105,8 +105,8 @@ Watched watched(const std::shared_ptr<const Model>& model, const SpeedRecorder* 
   return w;
 }
 
-// The run repeated looks between the ends of the few steps that pass what the first one was asked for, and finds the same
-// bits; what lies elsewhere it does not claim to know.
+// The run repeated looks between the ends of the few steps that pass the levels requested in the first one, and finds
+// the same bits; what lies elsewhere it does not claim to know.
 TEST(SpeedRecorder, ARunRepeatedLooksCloselyWhereItWillBeAsked) {
   const Scene scene = test::scene_file("scenes/crank_press.toml");
   const auto model = compile(scene, scene.effects);

@@ -1,5 +1,5 @@
 // state_test.cpp — the state is a value: kept, written, read and handed on, it goes on to the same bits; and whatever
-// was asked of the equations in between changes nothing.
+// was evaluated by the equations in between changes nothing.
 #include "engine/equations/state.h"
 
 #include <gtest/gtest.h>

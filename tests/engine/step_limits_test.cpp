@@ -10,7 +10,7 @@
 namespace kurbel::step_limits_test {
 namespace {
 
-// Five masses in a row that swing; the spring `stiff` is ten thousand times as stiff as the others.
+// Five masses in a row that vibrate; the spring `stiff` is ten thousand times as stiff as the others.
 std::string chain(const std::string& stiff, const std::string& method) {
   std::string text = "line = [\"m0\"", tables;
   for (int i = 0; i < 5; ++i) {

@@ -59,7 +59,7 @@ std::string grown(Random& random, int depth) {
 
 // --- what must be true of a piece ---
 
-// Central differences tell a slope where those of two widths agree.
+// Central differences give a slope where those of two widths agree.
 std::string fault_of_slope(const FormulaProgram& program, double x, double room) {
   constexpr double width = 1e-4, alike = 1e-4, same = 1e-3, least = 1e-290;
   const auto slope = [&](double h) { return (program(x + h) - program(x - h)) / (2 * h); };

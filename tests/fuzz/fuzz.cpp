@@ -1,6 +1,6 @@
 // fuzz.cpp — throws inputs at one target by the number: every one has a seed, so every one can be had again.
 //
-//     kurbel_fuzz reader --count 1000000 --seconds 600 --out build/fuzz/reader    from a number of the clock's on, told
+//     kurbel_fuzz reader --count 1000000 --seconds 600 --out build/fuzz/reader    from a clock's number on, printed
 //     kurbel_fuzz reader --from 1 --count 1000
 //     kurbel_fuzz run FILE…           judges these files
 //
@@ -39,7 +39,7 @@ struct Arguments {
   std::vector<std::string> files;
 };
 
-// What the worker tells its parent while it works.
+// What the worker reports to its parent while it works.
 struct Shared {
   std::atomic<std::uint64_t> at, done;
   std::atomic<double> begun;  // processor time of the worker when the input came [s]

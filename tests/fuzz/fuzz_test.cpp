@@ -147,7 +147,7 @@ TEST(Fuzz, ASceneWrittenFromItsTreeIsTheSameScene) {
   }
 }
 
-// Mutations neither leave all scenes sound nor break all of them: both paths are taken.
+// Mutations neither leave all scenes valid nor break all of them: both paths are taken.
 TEST(Fuzz, SomeInputsAreValidAndSomeAreNot) {
   int valid = 0;
   constexpr int n = 200;

@@ -1,4 +1,4 @@
-"""What is asked of which scene, and what a program answered: computed once, kept outside of the tree."""
+"""Which questions are put to which scene, and what a program answered: computed once, kept outside of the tree."""
 import fnmatch
 import gzip
 import hashlib
@@ -234,7 +234,7 @@ def compute(program, answers, cells, limit, jobs, say):
 # --- programs ---
 
 def answers_of_program(program):
-    """Kept by what the program is; those that nobody has looked at for two weeks go."""
+    """Kept by what the program is; those that nobody has used for two weeks are deleted."""
     folder = CACHE / "programs"
     for old in folder.glob("*"):
         if old.stat().st_mtime < Path("/proc/self").stat().st_mtime - 14 * 86400:

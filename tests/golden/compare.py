@@ -25,7 +25,7 @@ PLACE = 1e-5
 # Depends on the processor's speed, on the place of files, on the version.
 LEFT_OUT = {"version", "scene", "other_scene", "database", "machine", "fingerprint", "processor_seconds", "cpu_seconds",
             "cpu_seconds_all_runs", "seconds", "repetitions", "time_ratio"}
-# Work of the numerics: told apart, and no result.
+# Work of the numerics: listed separately, and no result.
 EFFORT = {"statistics"}
 # Differences that the numerics leave where there should be none: judged as estimates.
 RESIDUALS = re.compile(r"residual|closure$|closure_error$|drift$|^relative$|^measured$|agreement|bodies_against|remaining_to")

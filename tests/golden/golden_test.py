@@ -144,7 +144,7 @@ class Comparison(unittest.TestCase):
         self.assertEqual(outcome.words[0][0], "conclusion")
         self.judged("within", changed(*conclusion, to=lambda s: s.replace("0.04123", "0.04124")))
         self.judged("different", changed(*conclusion, to=lambda s: s.replace("0.04123", "0.04128")))
-        # What is said beside a summary has its numbers; alone it is looked at to the last digit, or its ±.
+        # What is said beside a summary has its numbers; alone it is compared to the last digit, or its ±.
         self.judged("identical", changed("stdout", to=lambda s: s.replace("0.0412 ", "0.0421 ")))
         alone, said = {"exit": 0, "stdout": "δ = 0.0412 ± 0.0001", "stderr": ""}, "δ = 0.0414 ± 0.0001"
         self.judged("within", {**alone, "stdout": said}, alone)

@@ -40,7 +40,7 @@ Truth impulse(double of_source) {
   });
 }
 
-// How often flanks meet, against the same scene by DOP853 at local tolerances of 1e-12; found when first asked for.
+// How often flanks meet, against the same scene by DOP853 at local tolerances of 1e-12; found when first requested.
 Truth meets_as_often(const std::string& scene, double within) {
   const auto meetings = [](const Result& r) {
     return static_cast<double>(

@@ -9,7 +9,7 @@ namespace {
 
 const std::string family = "Blow";
 
-// A peak that swings to either side: which side is ahead by a last digit means nothing.
+// A peak that is reached to either side: which side is ahead by a last digit means nothing.
 Truth peak_of_either_sign(const std::string& words, const std::string& name, double value) {
   return residual(words, [name, value](const Result& result) {
     const Figure* figure = result.find(name);

@@ -18,7 +18,7 @@ std::string machine(const std::string& more, double until) {
          more + fmt::format("\n[run]\nstart = {{ speed = \"60 rad/s\" }}\nuntil = {}\n", quantity(until, "s"));
 }
 
-// The work of gravity and of contact is small beside the kinetic energy: the speed tells, with the crank's angle.
+// The work of gravity and of contact is small beside the kinetic energy: the speed shows it, with the crank's angle.
 Truth as_converged(const std::string& scene) { return converged(scene, {"final_angle.crank", "final_speed.crank"}); }
 
 Truth hit_as_often(const std::string& scene) { return converged(scene, {"impacts.crank"}); }

@@ -6,7 +6,7 @@
 namespace kurbel::dips_test {
 namespace {
 
-// Two free masses on a spring that is four times as stiff beyond θ₁, swinging just over it:
+// Two free masses on a spring that is four times as stiff beyond θ₁, vibrating just over it:
 //     ½ J ω₀² = ½ k θ₁² + k θ₁ x + 2 k x²,   peak torque k θ₁ + 4 k x,   four changes of the law in a period
 class KneeBarelyPassed : public ::testing::TestWithParam<const char*> {};
 
@@ -27,7 +27,7 @@ TEST_P(KneeBarelyPassed, IsPassedFourTimesAPeriod) {
         false);
     ASSERT_TRUE(r.complete) << r.diagnosis;
     EXPECT_NEAR(std::abs(test::figure(r, "peak_spring_torque.c")), k * knee + 4 * k * x, 1e-5 * k * knee) << beyond;
-    // 1.95 s are 13.9 periods of √(k/J): 28 swings to either side
+    // 1.95 s are 13.9 periods of √(k/J): 28 peaks to either side
     EXPECT_EQ(r.statistics.knots, 2 * 28) << beyond;
   }
 }

@@ -111,7 +111,7 @@ HardCase started_backwards() {
                {"final_angle.motor", no_load * until - (no_load - speed) * time * (1 - std::exp(-until / time))}})}};
 }
 
-// A crank started backwards swings through its dead centres as the mirrored one does forwards.
+// A crank started backwards turns through its dead centres as the mirrored one does forwards.
 HardCase crank_backwards() {
   const std::string scene = fmt::format(
       "line = [\"crank\"]\ncrank = {{ {} }}\nrun = {{ start = {{ speed = \"-25 rad/s\", angle = \"30 deg\" }}, until = "

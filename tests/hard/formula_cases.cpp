@@ -8,7 +8,7 @@ namespace {
 
 const std::string family = "Formula";
 
-// Two free inertias of 1 kg·m² on a spring τ = k |θ|^(3/2), as of Hertz' contact: a half swing takes
+// Two free inertias of 1 kg·m² on a spring τ = k |θ|^(3/2), as of Hertz' contact: a half period takes
 // (2√π Γ(7/5)/Γ(9/10)) α/v, α = (5 μ v²/(4k))^(2/5), v the speed of the twist through 0 (Deresiewicz 1968).
 HardCase hertz(double v, double k) {
   constexpr long double mu = 0.5L;
@@ -74,7 +74,7 @@ HardCase pulse(int decades) {
           .truths = {closed_form("ω = ω₀ + M T/J", {{"final_speed.j0", 11}, {"final_angle.j0", 11 - time}})}};
 }
 
-// Soft up to θ = d, then harder by a factor: two free inertias, half a swing within each law, in closed form.
+// Soft up to θ = d, then harder by a factor: two free inertias, half a period within each law, in closed form.
 HardCase kink(int decades) {
   const double factor = std::pow(10.0, decades), k = 100, d = 0.01, v = 0.5;
   const long double mu = 0.5L, w1 = std::sqrt(k / mu), w2 = w1 * std::sqrt(static_cast<long double>(factor));

@@ -39,7 +39,7 @@ double scale_of(const Figure& figure, double given) {
   return scale;
 }
 
-// Would the figure's absence fail? (A figure that is to be 0 tells by what it is otherwise.)
+// Would the figure's absence fail? (A figure that is to be 0 shows it by what it is otherwise.)
 bool reports(double value, double scale, double accuracy) {
   return value == 0 || std::abs(value) > allowed_ratio * accuracy * scale;
 }

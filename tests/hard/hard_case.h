@@ -43,7 +43,7 @@ inline Known by_its_size(std::string figure, double value) { return {std::move(f
 Truth closed_form(std::string words, std::vector<Known> figures);
 
 // Figures of the same scene by two methods at local tolerances of 1e-13; their difference is the uncertainty. Found
-// when first asked for.
+// when first requested.
 Truth converged(const std::string& scene, std::vector<std::string> figures, const std::string& method = "dop853",
                 const std::string& second = "verner6", const std::string& effects = "");
 
@@ -64,7 +64,7 @@ struct HardCase {
   std::vector<std::string> refusal =
       {};  // words of the diagnosis or refusal that is the right end; empty: an answer is
   std::map<std::string, std::string> excluded = {};  // method: the reason
-  // method: the finest accuracy that it is asked for, and why not more.
+  // method: the finest accuracy that it is run at, and why not more.
   std::map<std::string, std::pair<double, std::string>> finest = {};
   std::map<std::string, std::shared_ptr<const HardCase>> variants = {};  // method: a shortened case for it
   bool heavy = false;  // the tests run it with what the program chooses alone, the bench with all its budget
@@ -72,8 +72,8 @@ struct HardCase {
 };
 
 enum class Verdict {
-  passed,      // error ≤ 20 × (accuracy asked for + condition × rounding)
-  reported,    // the program says that it reached less than was asked for, and how much, true within 20 × of that; or
+  passed,      // error ≤ 20 × (requested accuracy + condition × rounding)
+  reported,    // the program says that it reached less than requested, and how much, true within 20 × of that; or
                // that the tighter run failed, and how, so that its figures come without errors
   refused,     // ended with the words that belong here
   unfinished,  // stopped at its budget, in words
@@ -97,13 +97,13 @@ struct CaseOutcome {
 const std::vector<std::string>& all_methods();
 const std::vector<double>& all_accuracies();  // 1e-3 … 1e-10
 
-// The error that a passed cell may have over the accuracy asked for.
+// The error that a passed cell may have over the requested accuracy.
 inline constexpr double allowed_ratio = 20;
 
 // One run at the local tolerance that belongs to the accuracy, without the tighter one that measures its error.
 Result single_run(const HardCase& hard_case, const std::string& method, double accuracy);
 
-// budget: at most this much processor time an integration [s], whatever the case asks for.
+// budget: at most this much processor time an integration [s], whatever the case requires.
 CaseOutcome run_case(const HardCase& hard_case, const std::string& method, double accuracy, double budget = 1e9);
 
 }  // namespace kurbel::hard

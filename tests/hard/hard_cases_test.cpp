@@ -14,7 +14,7 @@
 namespace kurbel::hard::hard_cases_test {
 namespace {
 
-// Methods of low order need ten times the steps for three digits more: they are asked for less.
+// Methods of low order need ten times the steps for three digits more: less is requested of them.
 double accuracy_for(std::size_t which_case, std::size_t which_method, const std::string& method) {
   const bool low_order = method == "esdirk3" || method == "bdf" || method == "esdirk" || method == "multibody";
   const std::size_t count = low_order ? 3 : all_accuracies().size();

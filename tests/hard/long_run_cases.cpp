@@ -39,7 +39,7 @@ HardCase free_crank(const std::string& name, double start, long double remainder
       .condition_words = "the last digit of the angle, and of the time at the speed it moves with"};
 }
 
-// Two inertias that swing against each other, the step M on one; undamped.
+// Two inertias that vibrate against each other, the step M on one; undamped.
 HardCase chain(const std::string& name, double cycles) {
   const double k = 4e4, torque = 20, omega = std::sqrt(k * 1.5), until = (cycles + 0.1) * 2 * pi / omega;
   const LinearChain two{.inertia = {1, 2}, .stiffness = {k}, .damping = {0}, .torque = torque};

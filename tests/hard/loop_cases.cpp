@@ -52,7 +52,7 @@ HardCase ways_of_ratio(int decades) {
                        20 / std::sqrt(2 * (ways.a + ways.b)));
 }
 
-// 2000 swings: what is locked in neither fades nor grows.
+// 2000 vibrations: what is locked in neither fades nor grows.
 HardCase locked_in_for_long() {
   const TwoWays ways{.inertia = 1, .a = 100, .b = 300, .locked_in = 0.02};
   return ways.released("LockedInTorqueSwingsForLong", "200 swings", 200.25 * 2 * pi / std::sqrt(800.0));
@@ -62,7 +62,7 @@ HardCase locked_in_for_long() {
 // Started in balance it turns on under no load for ever: speeds and torques stay.
 HardCase almost_massless_wheels(double inertia) {
   const double twist = 0.01, k = 2e4;
-  // Springs on the fast side k/9 … of the slow shaft and k in series round the loop.
+  // Springs on the fast side k/9 … of the slow shaft and k in series along the loop.
   const double torque = twist * k * (k / 9) / (k + k / 9);
   const std::string gear = fmt::format(
       "{{ kind = \"gearbox\", stages = [{{ teeth = [20, 60], inertia = [{0}, {0}] }}] }}", quantity(inertia, "kg*m2"));

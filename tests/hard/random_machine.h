@@ -76,7 +76,7 @@ class Dice {
   std::mt19937 random_;
 };
 
-// Torques 1 … 10⁴ N·m, speeds 5 … 300 rad/s, inertias over five decades round what such a motor runs up in a fifth of a
+// Torques 1 … 10⁴ N·m, speeds 5 … 300 rad/s, inertias over five decades about what such a motor runs up in a fifth of a
 // second, springs of 2 … 600 Hz, damping ratios 0.1 … 30 %.
 inline Machine some_machine(unsigned seed, bool conservative) {
   Dice dice(seed);

@@ -76,7 +76,7 @@ TEST(RandomMachines, EnergyBalanceHolds) {
     for (const auto& [line, work] : r.energy.by_line) turnover = std::max(turnover, std::abs(work));
     if (r.energy.by_line.count("harmful") && r.energy.by_line.at("harmful") > 1e-6 * turnover)
       return fmt::format("friction put {:.2g} J in, of {:.2g} J", r.energy.by_line.at("harmful"), turnover);
-    return r.energy.relative < 1e-5 ? ""  // ten times the accuracy asked for
+    return r.energy.relative < 1e-5 ? ""  // ten times the requested accuracy
                                     : fmt::format("energy balance off by {:.2g}", r.energy.relative);
   });
 }
@@ -116,7 +116,7 @@ TEST(RandomMachines, UnitsOfMassAndTimeMeanNothing) {
   });
 }
 
-// Springs, gears and cranks without friction: with all speeds turned round the machine runs back to where it came from.
+// Springs, gears and cranks without friction: with all speeds reversed the machine runs back to where it came from.
 TEST(RandomMachines, AConservativeMachineRunsBackwards) {
   expect_for_all(5000, 250, true, [](const Machine& m) -> std::string {
     const Scene scene = scene_from(text_of(m));
@@ -124,7 +124,7 @@ TEST(RandomMachines, AConservativeMachineRunsBackwards) {
     Equations equations(model, false);
     std::vector<double> y = equations.start(0);
     const bool tied = !model->relations.empty();                   // speeds may not be set one by one
-    for (std::size_t s = 0; s < model->free_shafts && !tied; ++s)  // something must swing
+    for (std::size_t s = 0; s < model->free_shafts && !tied; ++s)  // something must vibrate
       y[equations.speed_index(static_cast<int>(s))] *= 1 + 0.3 * static_cast<double>(s % 3);
     const std::vector<double> begin = y;
     const auto run_from = [&](const std::vector<double>& from) {
@@ -149,7 +149,7 @@ TEST(RandomMachines, AConservativeMachineRunsBackwards) {
     if (!back.complete) return back.diagnosis;
     const double found = apart(reversed_state(back.state), begin);
     if (found <= 1e-7) return "";
-    // Swings far beyond a spring's rated torque multiply every error on their way.
+    // Vibrations far beyond a spring's rated torque multiply every error on their way.
     constexpr double small = 1e-9;
     std::vector<double> beside = begin;
     for (std::size_t s = 0; s < model->free_shafts; ++s)

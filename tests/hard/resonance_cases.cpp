@@ -54,7 +54,7 @@ HardCase through_resonance(double torque) {
           .truths = {converged(scene, {"peak_torque.shaft", "final_speed.crank", "final_angle.motor"})}};
 }
 
-// --- I_r(φ) swings at twice the speed, 2 ω = 2 ω_n/n: the twist grows by itself ---
+// --- I_r(φ) varies at twice the speed, 2 ω = 2 ω_n/n: the twist grows by itself ---
 HardCase parametric(int zone) {
   const Crank crank{.radius = 0.08, .rod = 0.4, .inertia = 0.3, .mass = 20};
   const double mean = crank.inertia + 0.5 * crank.mass * crank.radius * crank.radius, j = 5, k = 2000;
@@ -81,7 +81,7 @@ std::vector<HardCase> resonance_cases() {
                                  through_resonance(60),
                                  parametric(1),
                                  parametric(2)};
-  // Methods of low order need minutes for the last digits; they are told to stop, which is no wrong answer.
+  // Methods of low order need minutes for the last digits; their budget stops them, which is no wrong answer.
   for (HardCase& c : cases) c.budget = 1.5;
   return cases;
 }

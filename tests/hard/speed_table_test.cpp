@@ -1,4 +1,4 @@
-// speed_table_test.cpp — steady motion that swings to and fro across a knot of a characteristic.
+// speed_table_test.cpp — steady motion that oscillates to and fro across a knot of a characteristic.
 #include <cmath>
 
 #include "tests/support/scenes.h"

@@ -88,7 +88,7 @@ HardCase governor(double damping_ratio) {
 std::vector<HardCase> time_scale_cases() {
   std::vector<HardCase> cases = {circuit(1e-2, 1), circuit(1e-4, 1), circuit(1e-6, 100), circuit(1e-6, 1000),
                                  governor(1e-2),   governor(1e-4),   governor(-1e-3)};
-  // Methods of low order need minutes for the last digits; they are told to stop, which is no wrong answer.
+  // Methods of low order need minutes for the last digits; their budget stops them, which is no wrong answer.
   for (HardCase& c : cases) c.budget = 1.5;
   return cases;
 }

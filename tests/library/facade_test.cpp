@@ -70,7 +70,7 @@ TEST(Facade, AFaultOfASceneHasItsPlace) {
     EXPECT_EQ(bad.faults()[0].line, 0);
     EXPECT_NE(bad.faults()[0].text.find("no such file"), std::string::npos);
   }
-  // Of a setting it is told in the setting.
+  // For a fault in a setting the setting is reported.
   EXPECT_NE(message_of([] {
               Machine::from_text(two_masses).with({{"fan.inertia", "-1 kg*m2"}});
             }).find("fan.inertia"),
@@ -96,7 +96,7 @@ TEST(Facade, AColumnOutlivesItsRun) {
   for (std::size_t i = 0; i < torque.size(); i += 7) ASSERT_NEAR(torque[i], torque_at(time[i]), 1e-4);
 }
 
-// J₁ ω₁ + J₂ ω₂ = M t, by columns that are asked for by their names.
+// J₁ ω₁ + J₂ ω₂ = M t, by columns that are requested by their names.
 TEST(Facade, AColumnIsThatOfItsName) {
   const kurbel::Run run = kurbel::run(Machine::from_text(two_masses), {.no_error = true, .page = false});
   const TimeSeries rotor = run.trajectory()["speed.rotor"], fan = run.trajectory()["speed.fan"],
@@ -109,7 +109,7 @@ TEST(Facade, AColumnIsThatOfItsName) {
   EXPECT_THROW(run.trajectory()["speed.fans"], std::out_of_range);
 }
 
-// A record of the closed form, told 10 ms late and 3 N·m too high.
+// A record of the closed form, given 10 ms late and 3 N·m too high.
 TEST(Facade, ARecordIsLaidOverRunAndCycle) {
   const std::string file = testing::TempDir() + "facade_record.csv";
   {
@@ -124,7 +124,7 @@ TEST(Facade, ARecordIsLaidOverRunAndCycle) {
   EXPECT_NEAR(run.figures()["measured_offset.torque.coupling"].value, 3, 0.02);
   // What is left: the record's four digits and straight lines between the run's rows.
   EXPECT_LT(run.figures()["residual_rms.torque.coupling"].value, 0.05);
-  // What the options lack or the file has wrongly is told before anything runs.
+  // What the options lack or the file has wrongly is reported before anything runs.
   EXPECT_NE(message_of([&] { kurbel::run(machine, {.measured = file}); }).find("channel: map \"T1="),
             std::string::npos);
   try {
@@ -151,7 +151,7 @@ TEST(Facade, ARunGoesOnFromAState) {
                std::invalid_argument);
 }
 
-// The rigid machine bears half of what rings: M J₂/(J₁ + J₂) against twice that.
+// The rigid machine carries half of what rings: M J₂/(J₁ + J₂) against twice that.
 TEST(Facade, FiguresOfAStudyHaveTheirModel) {
   const Study study = compare(Machine::from_text(two_masses), {{"no_error", "true"}, {"no_trials", "true"}});
   std::map<std::string, double> peaks;

@@ -1,4 +1,4 @@
-// change_points_test.cpp — links that pass through one line, and outputs that go round, against loops followed by
+// change_points_test.cpp — links that pass through one line, and outputs that rotate, against loops followed by
 // Newton's method with a predictor, in long double.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -144,7 +144,7 @@ TEST(ChangePoint, AntiparallelogramTurnsItsRockerAgainstItsCrank) {
   FourBarData d = four_bar(0.1, 0.3, 0.1, 0.3);
   d.crossed = true;
   expect_followed(d, 1, -1);
-  d = four_bar(0.3, 0.1, 0.3, 0.1);  // its short links are coupler and ground: both go round in one sense
+  d = four_bar(0.3, 0.1, 0.3, 0.1);  // its short links are coupler and ground: both rotate in one sense
   expect_followed(d, 1, 1);
   d.crossed = true;
   expect_followed(d, 1, 1);

@@ -194,7 +194,7 @@ TEST_P(InEachJoint, JacobianIsExactInFlightAndInContact) {
   }
 }
 
-// The angle rather than the speed, which keeps swinging with the slider in its gap.
+// The angle rather than the speed, which goes on oscillating with the slider in its gap.
 TEST_P(InEachJoint, AVanishingGapIsTheIdealJoint) {
   const auto end = [](const Result& r) { return figure(r, "final_angle.crank"); };
   const std::string run_text = "start = { speed = \"60 rad/s\" }\nuntil = \"30 ms\"\naccuracy = 1e-8";

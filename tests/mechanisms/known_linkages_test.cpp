@@ -163,7 +163,7 @@ TEST(KnownLinkages, StephensonsChainDrivenFromItsOtherLoop) {
     const SixBar::At x = six.at(phi);
     return std::arg(x.e.p - x.g.p);
   };
-  // From the sketch on to where the lever turns round.
+  // From the sketch on to where the lever reverses.
   int compared = 0;
   for (const int sense : {-1, 1}) {
     Real last = 0;

@@ -162,7 +162,7 @@ TEST(LinkForces, ASpringOnAYokeKeepsItsEnergy) {
 
 // The same as a pendulum of twice the angle: θ = 2φ, θ″ = −(k r²/J) sin θ about 90°; period by the elliptic integral.
 TEST(LinkForces, ASpringOverATogglesPeriodIsThePendulums) {
-  // At rest at φ = 60°, it swings to 120° and back: amplitude of θ 60°, about the place where the spring is slack.
+  // At rest at φ = 60°, it moves to 120° and back: amplitude of θ 60°, about the place where the spring is slack.
   const double rate = std::sqrt(900 * 0.06 * 0.06 / 0.02), amplitude = pi / 3;
   double a = 1, g = std::cos(amplitude / 2);
   for (int i = 0; i < 8; ++i) {
@@ -210,7 +210,7 @@ TEST(LinkForces, CouplesActBetweenLinks) {
   EXPECT_NEAR(test::figure(r, "final_speed.m"), 2 * pi + 3 / 0.02 * 0.5, 1e-8);
 }
 
-// A pin's path is measured along the link that guides it, so that the point may turn round.
+// A pin's path is measured along the link that guides it, so that the point may reverse.
 TEST(LinkForces, APinsPathIsThatOfTheLinkThatGuidesIt) {
   const auto model = compile(test::scene_from(R"(
 line = ["m"]

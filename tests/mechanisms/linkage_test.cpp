@@ -173,7 +173,7 @@ void expect_balanced(const LinkageData& data) {
     for (const double term : terms) torque += term, largest = std::max(largest, std::abs(term));
     EXPECT_NEAR(f.torque, torque, 1e-12 * largest) << i;
     EXPECT_LT(f.residual, 1e-14);
-    // The frame bears weights, inertia forces and the load on a point.
+    // The frame carries weights, inertia forces and the load on a point.
     Force2 frame, rest = f.shaking_force;
     for (const JointForces& j : f.joints)
       if (std::string(j.from) == "frame") frame = frame + j.force;
@@ -268,8 +268,8 @@ TEST(Linkage, StephensonsChainDrivenFromItsOtherLoopIsOfClassIII) {
   EXPECT_GT(compared, 10);
 }
 
-// A crank–rocker O A B C far from dead positions, on whose coupler hangs a plate on three rods: where the crank locks, the
-// plate's group does.
+// A crank–rocker O A B C far from dead positions, whose coupler carries a plate on three rods: where the crank locks,
+// the plate's group does.
 TEST(Linkage, OfAGroupBehindADyadThatLocksTheLinksAreNamed) {
   std::mt19937 random(7);
   const auto uniform = [&](double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); };
@@ -465,8 +465,8 @@ TEST(Linkage, WeightsOnASlantedLineAndACrankThatIsDrawnBackwards) {
 }
 
 // A rod from A on a circle of radius 1 about C goes through S, 0.6 beside C; its point P, 0.9 from A, draws a curve with a
-// loop in it, about O. A driver about O that P slides on goes round twice in a cycle: towards C it meets the curve 0.5 from S,
-// where A stands 0.4 off, and 0.7 from S, where A stands 1.6 off.
+// loop in it, about O. A driver about O that P slides on rotates twice in a cycle: towards C it meets the curve 0.5
+// from S, where A stands 0.4 off, and 0.7 from S, where A stands 1.6 off.
 TEST(Linkage, ACycleOfTwoTurnsComesBackAfterBoth) {
   const double rod = 0.3 + std::sqrt(0.09 + 0.64), x = -0.5, y = std::sqrt(0.75);  // A from S at 120°
   const double from = 0.25 + (rod - 0.9) * x, up = (rod - 0.9) * y;                // P from O

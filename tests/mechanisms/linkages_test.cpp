@@ -113,7 +113,7 @@ FourBarData crank_rocker() {
   return d;
 }
 
-// Swing between crank and coupler in line, extended and folded: two triangles with the sides coupler ± crank.
+// Travel between crank and coupler in line, extended and folded: two triangles with the sides coupler ± crank.
 TEST(FourBar, SwingOfTheRockerMatchesItsDeadCentreTriangles) {
   const FourBarData d = crank_rocker();
   const Mechanism m("rocker", d);

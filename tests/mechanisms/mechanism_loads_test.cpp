@@ -152,7 +152,7 @@ double swing() {
 TEST(FourBar, OpposingTorqueTakesTwiceTheSwing) {
   const Result r = turning(four_bar_text, "{ kind = \"opposing\", torque = \"30 N*m\" }");
   EXPECT_NEAR(figure(r, "useful_work_per_cycle"), -30 * 2 * swing(), 1e-8);
-  // It turns round at each dead centre that the crank passes in 30 rad.
+  // It reverses at each dead centre that the crank passes in 30 rad.
   const Mechanism m("m", four_bar());
   std::map<std::string, int> expected, met;
   for (const double phi : m.travel.reversals) {

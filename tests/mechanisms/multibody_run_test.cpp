@@ -133,7 +133,7 @@ TEST(MultibodyRun, TroubleInATorqueReachesTheCaller) {
   EXPECT_THROW(run_multibody(p), std::runtime_error);
 }
 
-// Simbody's integrators try a shorter step where one throws; trouble told once is trouble all the same.
+// Simbody's integrators try a shorter step where one throws; trouble reported once is trouble all the same.
 TEST(MultibodyRun, TroubleThatIsReportedOnlyOnceReachesTheCallerByEveryIntegrator) {
   MultibodyProblem p;
   p.mechanism = MechanismData(reference_mechanism()).bodies_of();

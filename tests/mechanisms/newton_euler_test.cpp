@@ -173,7 +173,7 @@ TEST(ReactionsOfAllLinks, AreTheRateOfMomentumAndBalancePowersInASliderCrank) {
   expect_laws([&] { return random_mechanism(random); });
 }
 
-// Simbody's mobilizers, each by the joint and the sense in which it is told here; every link with mass.
+// Simbody's mobilizers, each by the joint and the sense in which it is stated here; every link with mass.
 struct Reported {
   const char* joint;
   int sense;

@@ -1,4 +1,4 @@
-// output_start_test.cpp — a machine that starts where its slider or rocker is told to be, against the closed forms of
+// output_start_test.cpp — a machine that starts at a given position of slider or rocker, against the closed forms of
 // slider-crank and four-bar.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ TEST(OutputStart, SliderGivesAngleAndSpeedOfItsCrank) {
       for (const double omega : {7.0, -7.0, 0.0}) {
         const bool falling = phi > extended && phi < folded;
         const std::string velocity = omega == 0 ? "" : fmt::format(", velocity = \"{:.17g} m/s\"", slope(phi) * omega);
-        const bool by_velocity = omega > 0 || (omega == 0 && falling);  // is what is meant unless told
+        const bool by_velocity = omega > 0 || (omega == 0 && falling);  // is what is meant unless stated
         for (const bool reported : {true, false}) {
           if (!reported && !by_velocity) continue;
           SCOPED_TRACE(fmt::format("{} {} {} {}", shift, phi, omega, reported));
@@ -86,7 +86,7 @@ TEST(OutputStart, RockerGivesAngleAndSpeedOfItsCrank) {
   }
 }
 
-// The first row of a run is what was told.
+// The first row of a run is what was given.
 TEST(OutputStart, RunBeginsThere) {
   const Result result =
       test::run(started(crank, "on = \"m.slider\", position = \"400 mm\", velocity = \"0.7 m/s\""), false);

@@ -42,7 +42,7 @@ SketchOf wheels(int count, double slope, double phi, bool one_rod) {
   }
   return of.rocks("crank" + pins.substr(pins.size() - 1));
 }
-// Cranks with their centres of mass at r/2 turn alike, rods go round with r.
+// Cranks with their centres of mass at r/2 turn alike, rods move on circles of radius r.
 double closed_inertia(int cranks, int rods) {
   return cranks * (crank_inertia + crank_mass * r * r / 4) + rods * rod_mass * r * r;
 }

@@ -147,7 +147,7 @@ TEST(ReducedMechanism, EqualDataShareOneTable) {
   EXPECT_THROW(reduce_mechanism(d), std::invalid_argument);
 }
 
-// Threads that ask for the same tables share them, those that ask for others do not wait for each other, and a failure
+// Threads that request the same tables share them, those that request others do not wait for each other, and a failure
 // reaches everyone who asked.
 TEST(ReducedMechanism, ThreadsAskForTablesAllAtOnce) {
   constexpr int threads = 6;

@@ -151,7 +151,7 @@ TEST(RockingCrank, OscillatesWithinItsArcAsThreeAnglesWithMultipliersDo) {
       y = l.step(y, 2.0L / steps);
       least = std::min(least, y[0]), greatest = std::max(greatest, y[0]);
     }
-    EXPECT_GT(static_cast<double>(greatest - least), 0.2 * arc.half);  // it swings
+    EXPECT_GT(static_cast<double>(greatest - least), 0.2 * arc.half);  // it oscillates
     const Result r = run(l.scene(from, 0, 2));
     ASSERT_TRUE(r.complete) << r.diagnosis;
     EXPECT_NEAR(figure(r, "final_angle.bar"), static_cast<double>(y[0]), 2e-8);

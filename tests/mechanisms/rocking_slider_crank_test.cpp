@@ -131,7 +131,7 @@ TEST(RockingSliderCrank, OscillatesWithinItsArcAsTwoAnglesWithAMultiplierDo) {
       least = std::min(least, y[0]), greatest = std::max(greatest, y[0]);
     }
     EXPECT_GT(static_cast<double>(greatest - least), 0.2 * arc.half);
-    EXPECT_GE(turns, 3);  // some swings
+    EXPECT_GE(turns, 3);  // some oscillations
     const Result r = run(l.scene(from, 0, 2.5));
     ASSERT_TRUE(r.complete) << r.diagnosis;
     EXPECT_NEAR(figure(r, "final_angle.swing"), static_cast<double>(y[0]), 1e-8);

@@ -91,7 +91,7 @@ TEST(SimbodyReduction, FourBar) {
   expect_consistent_derivatives(m, 0, 2 * SimTK::Pi);
 }
 
-// Quick-return: a block pinned to the crank slides along a swinging arm whose bearing lies 0.5 below the crank's.
+// Quick-return: a block pinned to the crank slides along a rocking arm whose bearing lies 0.5 below the crank's.
 TEST(SimbodyReduction, QuickReturn) {
   Mechanism m;
   MobilizedBody::Pin crank(m.matter.Ground(), Transform(), link(2, 0.2), Transform());
@@ -105,7 +105,7 @@ TEST(SimbodyReduction, QuickReturn) {
   m.at(0);
   EXPECT_GT(m.state.getQ()[2], 0);
   expect_consistent_derivatives(m, 0, 2 * SimTK::Pi);
-  // The arm's swing in closed form for a block guided through its bearing: tan(arm) = (0.5 + r sin φ)/(r cos φ).
+  // The arm's angle in closed form for a block guided through its bearing: tan(arm) = (0.5 + r sin φ)/(r cos φ).
   Mechanism plain;
   MobilizedBody::Pin crank2(plain.matter.Ground(), Transform(), link(2, 0.2), Transform());
   MobilizedBody::Pin arm2(plain.matter.Ground(), Vec3(0, -0.5, 0), link(3, 0.8), Vec3(0));

@@ -135,7 +135,7 @@ TEST(SliderCrankForces, MomentsAboutTheCrankAxisBalance) {
     const SliderCrankForces f = SliderCrankStatics(d, joints).solve(s);
     const double x = SliderCrankGeometry(d).slider(s.phi).value,
                  v = SliderCrankGeometry(d).slider(s.phi).slope * s.omega;
-    // Friction of the guide acts at its surfaces, ± ½ width from the pin's line, on the side that bears.
+    // Friction of the guide acts at its surfaces, ± ½ width from the pin's line, on the loaded side.
     const double couple =
         f.guide_friction == 0
             ? 0

@@ -122,7 +122,7 @@ TEST(SliderCrankGeometry, DoubleKeepsItsDigitsNearTheDeadPosition) {
     }
 }
 
-// l → ∞: harmonic motion x′ = −r sin φ, and I_r = J + m r² + m_slider r² (sin²φ), the rod carried round without turning
+// l → ∞: harmonic motion x′ = −r sin φ, and I_r = J + m r² + m_slider r² (sin²φ), the rod moved on a circle, unturned,
 // with its mass at its pin (rod_com = 0).
 TEST(SliderCrankGeometry, LongRodGivesHarmonicMotion) {
   SliderCrankData d = reference_mechanism();

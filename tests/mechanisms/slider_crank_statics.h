@@ -12,7 +12,7 @@
 // tabulates them so. Friction itself depends on the reactions:
 //     revolute:  moment ρ |R| against the relative rotation, ρ = r sin(atan f): R is tangent to the friction circle
 //     guide:     f Σ|N_i| + (k_r/R) Σ|N_i| against the slider's motion; Σ|N_i| = |N| while the reaction stays within
-//                the guide's length L, else both edges bear and Σ|N_i| = 2 |M|/L, M the moment about the guide's middle
+//                the guide's length L, else both edges carry and Σ|N_i| = 2 |M|/L, M the moment about its middle
 // Both are solved together by Newton's method, led from the frictionless solution to the given coefficients.
 #pragma once
 
@@ -76,8 +76,8 @@ struct SliderCrankForces {
   double guide = 0;                            // normal reaction N, along +y [N]
   double guide_moment = 0;                     // moment of the normal reactions about the slider pin [N·m]
   double guide_point = 0;   // where N acts, from the pin along x = guide_moment/N [m]; beyond every guide if N = 0
-  bool both_edges = false;  // N acts beyond the guide: both ends of the slider bear
-  double edge_front = 0, edge_back = 0;     // normal forces at the ends towards +x and −x, where both edges bear [N]
+  bool both_edges = false;  // N acts beyond the guide: both ends of the slider carry
+  double edge_front = 0, edge_back = 0;     // normal forces at the ends towards +x and −x, where both edges carry [N]
   double guide_friction = 0;                // along +x on the slider [N]
   std::array<double, 3> friction_torque{};  // in main bearing (on crank), crank pin (on rod), slider pin (on slider)
   std::array<double, joint_count> friction_power{};   // lost, ≥ 0 [W]
@@ -86,7 +86,7 @@ struct SliderCrankForces {
   double rod_couple = 0, crank_couple = 0;            // −I ε, about their centres of mass [N·m]
   Force2 shaking_force;                               // of all inertia forces, on the frame [N]
   double shaking_moment = 0;                          // of all inertia forces and couples about O, on the frame [N·m]
-  double residual = 0;  // of the friction laws, relative to the largest friction load they ask for
+  double residual = 0;  // of the friction laws, relative to the largest friction load they require
   int iterations = 0;   // of Newton's method
 
   double friction_loss() const;  // [W]

@@ -96,7 +96,7 @@ bool SliderCrankStatics::Solution::settle(const Law& law, double share, const In
   return false;
 }
 
-// q = s · law(base + U q), led from s = 0 to 1. The solution wanted is the one that hangs together with the
+// q = s · law(base + U q), led from s = 0 to 1. The solution wanted is the one connected with the
 // frictionless one: along it the determinant of 1 − s ∂law/∂q keeps its sign; where it would vanish the joints jam.
 SliderCrankStatics::Solution SliderCrankStatics::solve_friction(const Table& unit, const Column& base, const Law& law,
                                                                 double phi) const {

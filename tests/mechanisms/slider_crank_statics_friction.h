@@ -16,7 +16,7 @@ inline int sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 // q = law(reactions): the friction loads, each against its joint's motion.
 struct SliderCrankStatics::Law {
   using Loads = Eigen::Matrix<double, frictions, 1>;
-  // ∂q/∂reactions: each friction hangs on two reactions at most.
+  // ∂q/∂reactions: each friction depends on two reactions at most.
   struct Slopes {
     struct Entry {
       int reaction = 0;

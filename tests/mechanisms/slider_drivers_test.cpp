@@ -82,7 +82,7 @@ run = {{ start = {{ angle = "{} rad", speed = "{} rad/s" }}, until = "{} s", acc
 
 void expect_agreement(const Machine& machine, const std::string& load, double phi, double omega) {
   const State truth = machine.after({phi, omega}, 4, 40000);
-  ASSERT_GT(truth[0], 8);  // it went round, through dead centres
+  ASSERT_GT(truth[0], 8);  // it rotated, through dead centres
   const Result r = run(machine.scene(load, phi, omega, 4));
   ASSERT_TRUE(r.complete) << r.diagnosis;
   EXPECT_NEAR(figure(r, "final_angle.wheel"), static_cast<double>(truth[0]), 1e-8 * static_cast<double>(truth[0]));

@@ -173,7 +173,7 @@ steps = [
   EXPECT_LT(r.energy.relative, 1e-9);
 }
 
-// A load acts where neither its mechanism nor itself was told off.
+// A load acts where neither its mechanism nor itself was commanded off.
 TEST(SwitchedLoads, TheMechanismsCommandAndTheLoadsOwnBothCount) {
   const std::string two = with(crank, "load = { kind = \"opposing\", force = \"200 N\" }",
                                "load = [{ kind = \"opposing\", force = \"200 N\" }, { kind = \"medium\", viscous = "

@@ -140,7 +140,7 @@ class MotionJudge {
     }
     return reversed && most > 1.1 * std::abs(p_.back().speed);
   }
-  // |speed| at the end; of one that vibrates the greatest one of its last half swing, or of the last 2 % of the time.
+  // |speed| at the end; of one that vibrates the greatest one of its last half cycle, or of the last 2 % of the time.
   double fastest_late() const {
     const double from = end() == "vibrates" ? until_ - std::max(half_swing(), at_end * until_) : until_;
     double most = 0;

@@ -10,16 +10,16 @@
 //                             turns (the time between the two before is that within a factor of two); unless it has
 //                             reversed since it last turned, and passed its greatest speed in that sense
 //               "vibrates":   in the last quarter of the time it turns in both senses, twice at least, and the angle that it
-//                             gained is less than a quarter of the way it went there, or in the last whole swing: the
-//                             quarter may end at the other end of a swing than it begins
+//                             gained is less than a quarter of the way it went there, or in the last whole cycle of its
+//                             oscillation: the quarter may end at the other end of it than it begins
 //               "forwards", "backwards": else, by the sense of the last 2 % of the time
 //   to_and_fro  the smaller one of these two shares of the way; 1: it does not turn to and fro
-//   fastest_late     the speed at the end; of one that vibrates the greatest of its last half swing, or of the last 2 % of the
-//               time
+//   fastest_late     the speed at the end; of one that vibrates the greatest of its last half cycle, or of the last 2 %
+//               of the time
 //   rests_since when it last turned, of one that rests; 0 where it never did
 //   held_since  the last point at which its shaft neither was tied to the frame nor stood (gears hold without a tie), of one
 //               that does so at the end
-//   driven      a source is within its window of time and not told 0;  drives: and gives a torque that acts
+//   driven      a source is within its window of time and its command is not 0;  drives: and gives a torque that acts
 //   pushed      at the end a source whose own shaft stands gives more than 1e-3 of the usual torque, or a clutch, limiter or
 //               belt slips under torque
 //   does_not_start   begins at rest, never moves, and is pushed at the end
@@ -39,17 +39,17 @@
 //               "no"   for no p that fits do they differ by less than 1 %, or the eighths differ by more than 5 %
 //               else "unclear"; without a cycle ten equal parts of that time stand for the cycles, and p = 1
 //   run_up      when the link's speed enters for good the range of the last p cycles, wider by 1 % of the mean speed; earliest,
-//               latest: wider by 1.1 %, 0.9 % (a swing that just touches the edge may belong to either side)
+//               latest: wider by 1.1 %, 0.9 % (an oscillation that just touches the edge may belong to either side)
 //   driven_part the same, of the time up to which any source is on, where none is at the end
 //   stands_within    share of the time of the last p cycles in which the link does not turn
-//   later       the same machine run on to several times the time: its speed in the mean of the last tenth (of whole cycles, as
-//               many as it takes), what it does at the end
+//   later       the same machine run on to several times the time: its mean speed in the last tenth (of whole cycles,
+//               as many as it takes), what it does at the end
 //   drift_of_motors  later: the greatest change of a motor's mean speed from the last eighth but one of the time to the last:
 //               a machine is steady when all of its shafts are, and the link may be so long before
 //   fastest_shaft    at the end, of any shaft over its usual speed
-//   two_periods a torque depends on time and something on the link's angle: nothing need ever come again
-//   contacts    lets_go: slips at a command of 1 that has not changed since it held; engages: slips otherwise while it is told
-//               more than 0; open: told 0;  a slip counts from 1e-3 of the usual speed, or 1e-2 rad in all; lets_go_at_all: without that
+//   two_periods a torque depends on time and something on the link's angle: nothing need ever repeat
+//   contacts    lets_go: slips at a command of 1 unchanged since it held; engages: slips otherwise, command above 0;
+//               open: command 0; slips count from 1e-3 of the usual speed or 1e-2 rad in all; lets_go_at_all: any slip
 //               stopped_within: the longest time of slip that ended in a hold
 //   motors      late_rms_torque: the smaller one of the last two eighths of the time: a motor may run up while the link is steady
 //   limits      of ratings that the scene states: greatest value sampled over the limit

@@ -94,7 +94,7 @@ class Judge:
         if delta is not None and delta >= 2:
             self.contradiction("δ of a motion that stops", f"δ = {delta:.4g}")
 
-    # Few laps of the time itself tell nothing: the last one is already that of the motion to which the machine comes.
+    # Few laps of the time itself show nothing: the last one is already that of the motion to which the machine comes.
     def comes_later(self):
         m, l = self.motion, self.later
         return bool(m["cycle"] and m["laps"] <= MOST_CYCLES and l and l["complete"] and l["steady"] == "yes" and
@@ -200,7 +200,7 @@ class Judge:
     def braked_by_command(self):
         return self.truth["sequence"] and any(c["kind"] == "brake" and c["command_at_end"] > 0 for c in self.truth["contacts"])
 
-    # By an open clutch that the sequence told last: what drives does not drive the link.
+    # By an open clutch that the sequence commanded last: what drives does not drive the link.
     def parted_by_command(self):
         return self.truth["sequence"] and any(c["kind"] == "clutch" and c["command_at_end"] <= 0 for c in self.truth["contacts"])
 

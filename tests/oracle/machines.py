@@ -2,7 +2,7 @@
 
     machine(seed, number) → Machine(family, text)     the same text for the same two numbers
 
-All are short: a few seconds of simulated time, a handful of shafts. Speeds, torques and inertias hang together, so that most of
+All are short: a few seconds of simulated time, a handful of shafts. Speeds, torques and inertias match, so that most of
 them run up, stop and strike within the time; a share of each family does not do what it should.
 """
 import math
@@ -487,7 +487,7 @@ def freewheel(s, r):
 
 
 def overloaded(s, r):
-    """An induction motor that starts badly, hangs, or runs hot."""
+    """An induction motor that starts badly, does not come up to speed, or runs hot."""
     d = s.dice
     keys = {"rated_power": q(r.torque * r.speed, "W"), "rated_speed": q(r.speed, "rad/s"), "synchronous_speed": q(r.speed / d.uniform(0.93, 0.98), "rad/s"),
             "breakdown_ratio": f"{d.uniform(1.8, 3):.3g}", "inertia": q(0.3 * r.inertia, "kg*m2")}

@@ -18,7 +18,7 @@ constexpr std::array weights = {7.0 / 90, 32.0 / 90, 12.0 / 90, 32.0 / 90, 7.0 /
 constexpr double turns = 1e-3;  // of the usual speed: from there on a shaft turns
 constexpr double apart = 1e-9;  // of the usual speed: from there on both sides of a contact differ
 
-// A contact as it stands in the model: a joint that slips, a belt's own state, or a brake on a shaft.
+// A contact as it stands in the model: a joint that slips, a belt's internal state, or a brake on a shaft.
 struct Place {
   Contact contact;
   int joint = -1, elastic = -1;  // of the network, of the model

@@ -1,6 +1,6 @@
 // observed.h — a machine's motion as the engine runs it, sampled: all that the classifier knows of a run.
 //
-// Every step of the run is looked at in five points, its begin and its end among them; a step never goes over an event, so
+// Every step of the run is examined in five points, begin and end among them; a step never goes over an event, so
 // what a contact does changes between two steps and not within one. Commands are those in force at the time of the point.
 #pragma once
 
@@ -22,7 +22,7 @@ struct Moment {
   double load = 0;  // torque of all that neither drives nor opposes motion (weights, springs), reduced [N·m]
   std::vector<double> reported = {};  // commands in force
   std::vector<char> on = {};          // of each element: within its window of time
-  bool driven = false;                // a source is within its window of time, and not told 0
+  bool driven = false;                // a source is within its window of time, and its command is not 0
   bool held = false;                  // the link's shaft is tied to the frame
 };
 

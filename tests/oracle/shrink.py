@@ -1,4 +1,4 @@
-"""The smallest scene that still shows a finding: parts, keys and steps are left out, numbers rounded, as long as it does."""
+"""The smallest scene that still shows a finding: parts, keys, steps are omitted, numbers rounded, as long as it does."""
 import re
 
 

@@ -35,7 +35,7 @@ PREDICATES = {
     "motor_overloaded": "too hot", "held_by": "held by", "works_in_strokes": "strokes", "does_not_move": "does not move", "starts": "starts",
     "vibrates": "vibrates", "clutch_slips_engaging": "engages", "clutch_opened_by_command": "open", "freewheel_overruns": "overruns",
 }
-# What tells that the machine's motion is not what it should be.
+# What shows that the machine's motion is not what it should be.
 BAD_MOTION = ("jams", "stalls", "does not start", "turns back", "runs away", "hangs", "no round", "slips to the end", "brake too weak",
               "brake not done")
 

@@ -1,5 +1,5 @@
-// coupling_selection_test.cpp — selections of couplings after DIN 740-2 as their makers' handbooks work them through: the
-// same data as a machine, and what kurbel modes says of it.
+// coupling_selection_test.cpp — selections of couplings by DIN 740-2 as the manufacturers' handbooks work them through:
+// the same data as a machine, and what kurbel modes says of it.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ double shock_factor(double zeta) {
 
 // A motor of 160 kW, 1485 rpm, started without load, drives a screw compressor: T_AS = 2058, T_LN = 930 N·m, S_A = 1.8,
 // S_z = 1, S_t = 1.45; J_A = 2.9673, J_L = 6.8673 kg·m² with the halves; T_KN = 2400, T_Kmax = 4800 N·m. Its damping is
-// chosen so that a step of torque on the driving side goes through with S_A. The book rounds J_L/(J_A + J_L) to 0.7.
+// chosen so that a step of torque on the driving side goes through with S_A. The book takes J_L/(J_A + J_L) as 0.7.
 TEST(CouplingSelection, ScrewCompressorOfKtr) {
   constexpr double driving = 2.9673, driven = 6.8673, stiffness = 60e3, warm = 1.45, shock = 1.8;
   double low = 0.01, high = 0.2;

@@ -1,4 +1,4 @@
-// published.cpp — trajectories, state matrices and natural frequencies as tests ask for them.
+// published.cpp — trajectories, state matrices and natural frequencies as tests need them.
 #include "tests/published/published.h"
 
 #include <algorithm>

@@ -39,8 +39,8 @@ double shape_ratio(const ModesStudy& study, std::size_t mode, const std::string&
 
 // --- TV01: two turbines through two stages of gears on one propeller (Gunter and Chen, ex. 8.1) ---
 
-// The propeller's torque swings with its five blades by a tenth of what it takes at 85 rpm. The modal damping ratio of
-// the source stands as viscous damping of every shaft, of that ratio at the first mode.
+// The propeller's torque oscillates with its five blades by a tenth of what it takes at 85 rpm. The modal damping ratio
+// of the source stands as viscous damping of every shaft, of that ratio at the first mode.
 std::string marine_turbines(double amplitude) {
   const auto inertia = [](const std::string& name, double j) {
     return format("[{}]\nkind = \"inertia\"\ninertia = \"{} lbf*in*s2\"\n", name, j);
@@ -348,7 +348,7 @@ c = { kind = "torque source", inertia = "22 kg*m2", amplitude = "AMPLITUDE N*m",
 effects = { elasticity = true }
 )";
 
-// The table's last line is the torque that must be taken off the last disc so that the first one swings by 1 rad: the
+// The table's last line is the torque that must be taken off the last disc so that the first one vibrates by 1 rad: the
 // forced undamped chain answers to it with the table's angles and torques.
 TEST(HolzerTable, TorqueLeftOverForcesTheTablesMotion) {
   const Validation is(Against::published, "Thomson: Theory of Vibration, ex. 12.4-1, Holzer's table (case tv03)");

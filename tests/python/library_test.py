@@ -35,7 +35,7 @@ class Runs(unittest.TestCase):
         self.assertTrue(run.complete)
         self.assertEqual(peak.unit, "N*m")
         self.assertLess(abs(peak.value - STEP), 2 * peak.error)
-        # It swings about its mean by (1 - cos wt): at every instant.
+        # It oscillates about its mean by (1 - cos wt): at every instant.
         w = math.sqrt(4000 * (1 / 0.2 + 1 / 1.5))
         expected = STEP / 2 * (1 - numpy.cos(w * run.trajectory.time))
         self.assertLess(numpy.abs(run.trajectory["torque.coupling"] - expected).max(), 1e-4 * STEP)

@@ -50,7 +50,7 @@ def parameters_of_node(node):
 
 
 def parameters_of(function):
-    """The same of what the module has: pybind11's functions tell their signature in their first line."""
+    """The same of what the module has: pybind11's functions give their signature in their first line."""
     if not inspect.isfunction(function):
         return parameters_of_node(ast.parse(f"def {function.__doc__.splitlines()[0]}: ...").body[0])
     kinds = {inspect.Parameter.POSITIONAL_ONLY: "first", inspect.Parameter.POSITIONAL_OR_KEYWORD: "plain",

@@ -11,7 +11,7 @@ import unittest
 import kurbel
 
 PRESS = os.path.join(os.environ["KURBEL_SCENES"], "crank_press.toml")
-ENDLESS = {"run.budget": "100 s"}  # a run that nobody ends says so, rather than hang
+ENDLESS = {"run.budget": "100 s"}  # a run that nobody ends says so, rather than never return
 
 
 def threads():

@@ -139,8 +139,8 @@ TEST(Accuracy, AnswersHoldAndTheModelsErrorIsReported) {
   EXPECT_NE(page.find("verner6 at 1e-08"), std::string::npos);
 }
 
-// A run that is told to takes the cheapest setting that the study found exact enough, and refuses what is of another
-// text or model.
+// A run that is set to do so takes the cheapest setting that the study found exact enough, and refuses what is of
+// another text or model.
 TEST(KnownAccuracy, PicksTheCheapestSettingThatIsExactEnough) {
   Scene scene = test::scene_file("scenes/six_inertia_chain.toml");
   const AccuracyStudy study = measure_accuracy(scene, coarse());

@@ -103,7 +103,7 @@ const char* const stiff_drive = R"(
   start = { speed = "130 rad/s" }
 )";
 
-// What is advised holds when it is run again, with a tighter accuracy, and where a load of ± 20 % is told to be within.
+// What is advised holds when it is run again, with a tighter accuracy, and where a load of ± 20 % is said to be within.
 TEST(Advise, TheAdvisedSetStaysWithinWhenRunAgainAndAtOtherLoads) {
   const Scene scene = test::scene_from(stiff_drive);
   for (const double within : {1e-3, 0.02, 0.9}) {

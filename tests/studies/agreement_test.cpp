@@ -144,7 +144,7 @@ TEST(Agreement, SteadySpeaksOfClutchesFilmsAndLimitersThatSlip) {
                            "viscous_damper_crank"})
     expect_agreement(name, steady_alone);
 }
-// Its steps wait for angles, its motor for seconds: hundreds of events pass before it comes again.
+// Its steps wait for angles, its motor for seconds: hundreds of events pass before it repeats.
 TEST(Agreement, SteadySpeaksOfASequenceThatRepeatsByAngles) { expect_agreement("press_every_third", steady_alone); }
 TEST(Agreement, SteadySpeaksOfTheMachineThatItsSequenceLeaves) {
   for (const char* name : {"brake_released", "voltage_in_steps", "load_window", "starting_motor_off"})

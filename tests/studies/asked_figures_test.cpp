@@ -1,4 +1,4 @@
-// asked_figures_test.cpp — figures that a scene asks for by [[figure]], against closed forms.
+// asked_figures_test.cpp — figures that a scene requests by [[figure]], against closed forms.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -186,7 +186,7 @@ TEST(AskedFigures, OfStepsOfASequenceAreThoseOfATrapezoid) {
   expect(r.figures, "step_time_above_torque.2.-20N*m.brake", 0.1);
   expect(r.figures, "step_peak_torque.3.brake", -30, 1e-4);
   expect(r.figures, "step_mean_torque.3.brake", -30 * 0.05 / 0.2, 1e-4);
-  // ∫ M dt/J up to 0.6 s: 0.2 s at 40, 0.2 s at 25 in the mean, 0.2 s at 10 N·m.
+  // ∫ M dt/J up to 0.6 s: on average 40 N·m over 0.2 s, 25 N·m over 0.2 s, 10 N·m over 0.2 s.
   expect(r.figures, "step_min_speed.1.wheel", 50 - 0.2 * (40 + 25 + 10) / 10, 1e-5);
   ASSERT_TRUE(r.find("step_mean_torque.2.brake"));
   EXPECT_EQ(r.find("step_mean_torque.2.brake")->unit, "N*m");

@@ -1,4 +1,4 @@
-// cases_test.cpp — [[case]]: faults told at their places; each case is the scene with its settings, with its own forced response.
+// cases_test.cpp — [[case]]: faults reported where they are; each case: the scene, its settings and forced response.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

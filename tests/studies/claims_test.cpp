@@ -187,7 +187,7 @@ TEST(MotionClaims, SingleStrokesAreNoSteadyRunning) {
   EXPECT_TRUE(find(run_claims(r), Predicate::runs_steadily));
 }
 
-// The torque rises up to 200 rad/s and stays; the drag holds it at √(50/1e-3) = 224 rad/s, far beyond what the data tell.
+// The torque rises up to 200 rad/s and stays; the drag holds it at √(50/1e-3) = 224 rad/s, far beyond the data.
 std::string engine(const std::string& drag) {
   return fmt::format(R"(
     line = ["engine", "wheel"]
@@ -265,7 +265,7 @@ TEST(MotionClaims, WhatNeverMovedDoesNotComeToRest) {
   EXPECT_FALSE(has(words, "comes to rest")) << words;
 }
 
-// One side of a spring is told to turn, the other one to stand by silence.
+// One side of a spring is set to turn, the other one to stand by silence.
 TEST(MotionClaims, AStartWhoseShaftsDisagreeIsWarnedOf) {
   const auto run = [](const std::string& start) {
     return test::run(fmt::format(R"(
@@ -475,7 +475,7 @@ TEST(Verdicts, FactorsStandBesideTorquesAndSteelHasNone) {
                SceneError);
 }
 
-// A shaft that is too thin: the diameter that is told was computed, and 1 % less does not hold.
+// A shaft that is too thin: the diameter that is stated was computed, and 1 % less does not hold.
 TEST(Remedies, AreTriedBeforeTheyAreSaid) {
   const Scene scene = test::scene_from(rated_shaft("allowable_shear_stress = \"70 MPa\""));
   const Result bare = test::run(scene);

@@ -1,4 +1,4 @@
-// commands_test.cpp — what an operating sequence may tell a component: for every kind of component and every command either
+// commands_test.cpp — what an operating sequence may command: for every kind of component and every command either
 // the run changes, or the scene is refused with what would be allowed.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -44,8 +44,8 @@ Result run_of(const Scene& scene) {
   return simulate(scene, scene.effects, "short", {.measure_error = false, .method = {}, .accuracy = 1e-5, .until = {}});
 }
 
-// Steps that are refused, all told at once: by the line that each is said to stand on. A message names the component
-// and what to do instead.
+// Steps that are refused, all reported at once: by the line that each is said to stand on. A message names the
+// component and what to do instead.
 std::set<int> refused_steps(Scene scene) {
   for (const Section& s : scene.components)
     for (const CommandGiven& command : commands) {

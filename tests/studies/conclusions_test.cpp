@@ -97,7 +97,7 @@ TEST(Headline, CountsSignificantDigitsAsTheyAreWritten) {
   EXPECT_EQ(significant_digits("0"), 0);
 }
 
-// Does it run, is it sure, does it bear it, what would change it, the figures: bad news before good.
+// Does it run, is it sure, is it strong enough, what would change it, the figures: bad news before good.
 TEST(Conclusion, BadNewsComesFirstThenTheQuestionsInTheirOrder) {
   Claims claims;
   const auto say = [&](Predicate what, const std::string& words, double share = 0) {
@@ -159,7 +159,7 @@ TEST(Conclusion, IsShortenedBySentencesAndKeepsItsAnswer) {
   EXPECT_NE(text.find("The answer, "), std::string::npos) << text;
   EXPECT_TRUE(text.ends_with("screen.")) << text;
   EXPECT_EQ(text.find("…"), std::string::npos) << text;
-  // Bad news is cut for the answer's sake, and not left out.
+  // Bad news is cut for the answer's sake, and not omitted.
   for (const auto& [what, begin] :
        {std::pair{Predicate::limit_exceeded, "a second excess, "}, std::pair{Predicate::stalls, "a stall, "}})
     add(f.claims, claimed(what, begin + filler, "part", {.value = 1.5, .limit = 1}));
@@ -181,7 +181,7 @@ TEST(Conclusion, IsShortenedBySentencesAndKeepsItsAnswer) {
 
 std::string first_sentence(const Result& r) { return concluded(findings_of(r).claims).front(); }
 
-// The compressor of the examples, started from rest without a flywheel's swing: its motor cannot press the piston through.
+// The compressor of the examples from rest, without a flywheel's energy: its motor cannot press the piston through.
 TEST(Conclusion, AStalledMachineIsHeadlinedAsStalled) {
   Scene scene = test::scene_file("scenes/compressor.toml");
   scene.run.start.speed = 0;
@@ -201,7 +201,7 @@ TEST(Conclusion, AMachineThatDoesNotStartIsHeadlinedAsSuch) {
   EXPECT_EQ(first_sentence(r), "\"compressor\" does not start: its loads hold the 91.94 N·m that drive it.");
 }
 
-// M = 10 N·m on 1 kg·m² with nothing against it: 100 rad/s after 10 s where its data tell of 10 rad/s.
+// M = 10 N·m on 1 kg·m² with nothing against it: 100 rad/s after 10 s where its data end at 10 rad/s.
 TEST(Conclusion, AMachineWithoutALimitRunsAway) {
   const Result r = test::run(R"(
     line = ["motor", "wheel"]
@@ -213,7 +213,7 @@ TEST(Conclusion, AMachineWithoutALimitRunsAway) {
   EXPECT_NE(first_sentence(r).find("runs away"), std::string::npos) << first_sentence(r);
 }
 
-// M = 10 N·m on 1 kg·m² from 10 rad/s: 26 rad/s after 1.6 s, and 28.8 rad: two whole cycles of 4π tell of no limit, what
+// M = 10 N·m on 1 kg·m² from 10 rad/s: 26 rad/s after 1.6 s, and 28.8 rad: two whole cycles of 4π show no limit, what
 // comes then does. With a drag of 0.1 N·m·s/rad 100 − 90 e^(−0.1 t) rad/s, 23.31 after 1.6 s, and no runaway.
 TEST(Conclusion, AMachineThatRunsAwayWithinTwoCyclesIsSaid) {
   const auto said = [](const std::string& drag) {
@@ -265,7 +265,7 @@ TEST(Conclusion, AFallIsCountedFromTheForemostPointWithinAStep) {
   EXPECT_NE(said("6.615").find("turns backwards"), std::string::npos) << said("6.615");
 }
 
-// A brake stops the motor at once; what is behind the coupling swings on, at √(50/0.5) = 10 rad/s.
+// A brake stops the motor at once; what is behind the coupling vibrates on, at √(50/0.5) = 10 rad/s.
 TEST(Conclusion, AMotorThatABrakeHoldsUnderTorqueIsSaidBesideAVibration) {
   const Result r = test::run(R"(
     line = ["motor", "brake", "coupling", "machine"]
@@ -282,8 +282,8 @@ TEST(Conclusion, AMotorThatABrakeHoldsUnderTorqueIsSaidBesideAVibration) {
   EXPECT_NE(all.find("vibrat"), std::string::npos) << all;
 }
 
-// 10 N·m against a load of 30 behind a coupling of 100 N·m/rad: the motor swings about 0.1 rad, and comes to rest at 0.1 rad; near
-// that it is no run-up that its mean speed tells of, but a motor that its load holds.
+// 10 N·m against a load of 30 behind a coupling of 100 N·m/rad: the motor vibrates about 0.1 rad, and comes to rest
+// at 0.1 rad; near that its mean speed shows no run-up, but a motor that its load holds.
 TEST(Conclusion, AMotorThatItsLoadHoldsBehindASpringIsSaidWhileItTrembles) {
   const auto said = [](const std::string& until) {
     const Result r = test::run(R"(

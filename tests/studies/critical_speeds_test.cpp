@@ -1,5 +1,5 @@
-// critical_speeds_test.cpp — where orders swing most, and speeds at which a machine can stay, by closed forms; what cannot
-// be kept bars nothing.
+// critical_speeds_test.cpp — where orders vibrate most, and speeds at which a machine can stay, by closed forms; what
+// cannot be kept bars nothing.
 #include "studies/modes/critical_speeds.h"
 
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ double slope(double speed) {
 }
 
 // Inertias J₁ = 0.5 and J₂ = 1.5 kg·m² on a shaft of k = 3750 N·m/rad, ω₀ = 100 rad/s; 40 N·m of the first order on the
-// second, of which a rigid shaft bears J₁/(J₁ + J₂), 10 N·m.
+// second, of which a rigid shaft carries J₁/(J₁ + J₂), 10 N·m.
 std::string swinging(double damping) {
   return fmt::format(R"~(
 line    = ["motor", "shaft", "wheel"]
@@ -80,8 +80,8 @@ TEST(CriticalSpeeds, OscillateMostWhereTheClosedFormDoes) {
   }
 }
 
-// A stiff shaft of small torque before a soft one with a large damping: told is what the soft one does, which the mode
-// twists, and not the slope of the other; its peak is that of the closed form.
+// A stiff shaft of small torque before a soft one with a large damping: reported is what the soft one does, which the
+// mode twists, and not the slope of the other; its peak is that of the closed form.
 TEST(CriticalSpeeds, AreTheAmplitudeOfTheJointThatTheModeTwists) {
   const ModesStudy study = study_over(R"~(
 line    = ["motor", "stiff", "wheel", "soft", "fan"]
@@ -114,7 +114,7 @@ TEST(CriticalSpeeds, WithoutDampingAreBarred) {
                           [](const BarredRange& b) { return b.from < 100 && 100 < b.to; }));
 }
 
-// Where the range ends below the peak, or begins above it, there is none to tell.
+// Where the range ends below the peak, or begins above it, there is none to report.
 TEST(CriticalSpeeds, HaveNoPeakBeyondTheRange) {
   const ModesStudy study = study_over(swinging(15), 98, 140);
   ASSERT_EQ(study.critical.size(), 1U);
@@ -154,7 +154,7 @@ TEST(OperatingSpeeds, StretchesAreWhole) {
   EXPECT_EQ(list[3].end, 6U);
 }
 
-// A rigid shaft pair under M cos φ on a wheel J: the speed swings by M/(J ω), at low speeds by more than itself.
+// A rigid shaft pair under M cos φ on a wheel J: the speed oscillates by M/(J ω), at low speeds by more than itself.
 TEST(OperatingSpeeds, OscillationOfTheSpeedIsThatOfTheClosedForm) {
   const Scene scene = scene_from(R"~(
 line    = ["motor", "shaft", "wheel"]
@@ -177,7 +177,7 @@ run     = { start = { speed = "50 rad/s" } }
 }
 
 // Mains-fed compressor at 979 rpm: its motor breaks down below some 900 rpm. Nothing below is critical or barred, where
-// the linear response says thousands of times what the coupling bears.
+// the linear response says thousands of times what the coupling can carry.
 TEST(OperatingSpeeds, NothingIsBarredWhereTheMachineCannotStay) {
   const Scene scene = scene_file("docs/tasks/two_cylinder_compressor.toml");
   const ModesStudy study = find_modes(scene, scene.effects, {});

@@ -143,7 +143,7 @@ TEST(Dictionary, WhatRunsOfAllScenesReportIsExplained) {
   }
 }
 
-// What moves may rock, and what shifts has a rate: their units are told beside the first.
+// What moves may rock, and what shifts has a rate: their units are stated beside the first.
 TEST(Dictionary, UnitsAreThoseOfTheFigures) {
   for (const auto& [scene, reported] : reported_by_scenes())
     for (const Figure& f : reported.figures) {
@@ -160,9 +160,9 @@ TEST(Dictionary, WhatItSaysThatRunsReportIsReportedByOne) {
     for (const Channel& c : of.channels) reported.insert(definition_of(c.name)->name);
   }
   // No scene of the folder has the element, or the model of it, that brings them along.
-  // The measured ones are told where a test's record is laid over the run (measured_test.cpp), the current of a cycle
-  // where a two-axis motor drives a mechanism (drive_figures_test.cpp), a time above a level where a scene requests it
-  // (asked_figures_test.cpp).
+  // The measured ones are reported where a test's record is laid over the run (measured_test.cpp), the current of a
+  // cycle where a two-axis motor drives a mechanism (drive_figures_test.cpp), a time above a level where a scene
+  // requests it (asked_figures_test.cpp).
   const std::set<std::string_view> not_in_scenes = {
       "bristle",           "guide_shift*",   "guide_tilt*",     "residual_rms", "residual_largest",
       "residual_relative", "measured_shift", "measured_offset", "current_use",  "time_above_*"};

@@ -1,5 +1,5 @@
-// drive_figures_test.cpp — what a run tells of motors' currents and starts, of flywheels, clutches and compressors: closed
-// forms.
+// drive_figures_test.cpp — what a run reports of motors' currents and starts, of flywheels, clutches and compressors:
+// closed forms.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -91,7 +91,7 @@ TEST(Flywheel, FallsAndGivesWhatTheStrokeTakesBeyondTheDrive) {
   EXPECT_NEAR(*r.find("speed_drop.wheel")->at, 1.1, 1e-9);
 }
 
-// A prescribed shaft drives, too: a step of 500 N·m against 4 kg·m² on 400 N·m/rad swings about ω₀ = 100 rad/s by
+// A prescribed shaft drives, too: a step of 500 N·m against 4 kg·m² on 400 N·m/rad vibrates about ω₀ = 100 rad/s by
 // M/(J p) = 12.5 rad/s, p = √(k/J) = 10 rad/s: from 112.5 rad/s down to 87.5 rad/s.
 TEST(Flywheel, FallsBehindAPrescribedShaft) {
   const Result r = test::run(R"(
@@ -225,7 +225,7 @@ TEST(Clutch, WhatHoldsNothingHasNoReserve) {
   EXPECT_EQ(r.find("torque_reserve.guard"), nullptr);
 }
 
-// Two compressors on one piston are told apart by the names of their loads.
+// Two compressors on one piston are distinguished by the names of their loads.
 TEST(Compressor, EachOfTwoOnAPistonHasItsVolumetricEfficiency) {
   const Result r = test::run(test::scene_file("scenes/unloaded_compressor.toml"), false);
   std::set<std::string> names;

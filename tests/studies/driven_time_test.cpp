@@ -94,7 +94,7 @@ TEST(DrivenTime, AHeavyFlywheelDoesNotHideTheClock) {
     EXPECT_NEAR(figure(r, "useful_work_per_cycle"), -30 * 0.6 * 91, 2) << until;
   }
 }
-// ω = 91 − 20, in the mean, with a time constant of 2 s.
+// ω = 91 − 20, on average, with a time constant of 2 s.
 TEST(DrivenTime, AStepOfALoadBesideAClockBeginsAnotherMotion) {
   const std::string step =
       R"(more = { kind = "load", on = "rotor", acts = "always", table = { over = "time", unit = ["s", "N*m"], points = [[0, 0], [20, 0], [20, 20], [60, 20]] } })";
@@ -234,7 +234,7 @@ run = {{ until = "14 s" }}
   ASSERT_TRUE(down.periods.steady) << down.periods.verdict;
   EXPECT_LT(down.periods.run_up_end.value_or(0), 8.9);
 }
-// The turns on the ramp tell nothing of the motion after it.
+// The turns on the ramp say nothing about the motion after it.
 TEST(DrivenTime, AFewTurnsAfterAStartAreNotJudgedByThoseBefore) {
   const Result r = run(motors(soft, R"({ at = "0 s", set = "second", to = 1 })", 20.05), false);
   EXPECT_FALSE(r.periods.steady) << r.periods.verdict;

@@ -1,4 +1,4 @@
-// duty_test.cpp — what a run asks of its motors, and where its energy goes: closed forms, and works against powers.
+// duty_test.cpp — what a run requires of its motors, and where its energy goes: closed forms, and works against powers.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -153,7 +153,7 @@ TEST(FlywheelEnergy, IsInertiaTimesFluctuationTimesSpeedSquared) {
 
 // --- ratings of the steady motion ---
 
-// What DIN 740-2 asks of the steady motion is what `modes` asks of it, value and error; the start is not judged.
+// What DIN 740-2 requires of the steady motion is what `modes` requires, value and error; the start is not judged.
 TEST(SteadyRatings, OfACouplingAreThoseOfModes) {
   const Scene scene = test::scene_file("docs/tasks/genset.toml");
   const SteadyStudy s = steady(scene, {scene.effects}, {});
@@ -175,7 +175,7 @@ TEST(SteadyRatings, OfACouplingAreThoseOfModes) {
 }
 
 // A shaft of several segments is judged once each, with K_A, and not by its peaks besides; what a start would add (S_z) does
-// not weigh on the steady torque, and the start is said to be left out.
+// not weigh on the steady torque, and the start is said to be omitted.
 TEST(SteadyRatings, AreNotJudgedTwice) {
   for (const int segments : {1, 3}) {
     SCOPED_TRACE(segments);

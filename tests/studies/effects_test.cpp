@@ -58,7 +58,7 @@ TEST_P(OfExample, AnEffectThatIsOffLeavesNoTrace) {
   }
 }
 
-// Effects compose: each pair of them left out, and each pair alone, makes a machine that runs.
+// Effects compose: each pair of them omitted, and each pair alone, makes a machine that runs.
 TEST_P(OfExample, AnyPairOfEffectsComposes) {
   Scene scene = example(GetParam());
   scene.run.until = std::min(0.02, scene.run.until);

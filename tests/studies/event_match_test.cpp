@@ -33,7 +33,7 @@ TEST(EventMatch, ReportsWhatOneRunAloneHas) {
   EXPECT_EQ(match.only_in_coarse, 0u);
 }
 
-// Moved by less than half of their distance, some left out of either run: partners are found, and no event has two.
+// Moved by less than half of their distance, some missing in either run: partners are found, and no event has two.
 TEST(EventMatch, FindsEventsThatMovedALittleAmongMissingOnes) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> shift(-0.2, 0.2), chance(0, 1);

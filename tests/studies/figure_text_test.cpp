@@ -70,7 +70,7 @@ TEST(FigureText, WithoutAnErrorHasSixDigitsAtMostAndSaysSo) {
   EXPECT_EQ(error_cell({1, std::numeric_limits<double>::infinity()}), "not measured");
 }
 
-// What is exact by construction has the digits asked for; a count is shown whole.
+// What is exact by construction has the requested digits; a count is shown whole.
 TEST(FigureText, ExactFiguresHaveNoMoreDigitsThanOthers) {
   EXPECT_EQ(shown(0.883412345678, 0), "0.883412 ± 0");
   EXPECT_EQ(shown(0.883412345678, 0, 4), "0.8834 ± 0");

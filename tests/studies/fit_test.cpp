@@ -1,5 +1,5 @@
 // fit_test.cpp — records made of closed forms give back the values that made them, with the errors that theory says;
-// what a record cannot tell is named.
+// what a record cannot determine is named.
 #include "studies/fit/fit.h"
 
 #include <fmt/format.h>
@@ -151,7 +151,7 @@ TEST_F(Fit, FindsStiffnessAndDampingByAMode) {
   EXPECT_TRUE(solved.errors_from.empty()) << solved.errors_from;
 }
 
-// Two records, one shared unknown and a start speed of each; each left out, the other finds the same within its error.
+// Two records, one shared unknown and a start speed of each; each omitted, the other finds the same within its error.
 TEST_F(Fit, SharesUnknownsBetweenRecordsAndLeavesEachOut) {
   FitOptions options = asked(coasting, file("a.csv", coasting_record(0.3, 81, 4)), Over::time, {"n=speed.rotor"},
                              {"drag.damping=0.05..0.6 N*m*s/rad", "each: run.start.speed=80..120 rad/s"});

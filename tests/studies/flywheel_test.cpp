@@ -109,7 +109,7 @@ TEST(Flywheel, MertsalovApproachesWittenbauerAsDeltaShrinks) {
   }
 }
 
-// δ of a given inertia without I_em, in closed form: ω² swings by 2 ΔA/I.
+// δ of a given inertia without I_em, in closed form: ω² varies by 2 ΔA/I.
 TEST(SpeedCycle, MatchesTheClosedFormOfASine) {
   const Piecewise load = Piecewise::of({0, 2.5, 2 * pi}, [](double x) { return 10 + 4 * std::sin(x); });
   const WorkDiagram d = with_constant_drive(load);  // ΔT = 4 (cos φ − 1)

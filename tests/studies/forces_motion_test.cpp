@@ -159,7 +159,7 @@ TEST(CompiledMachine, TurnsTheCrankWithTheTorqueThatItsLinksNeed) {
   }
 }
 
-// A rod that bends counts as rigid: told with its size, and the error holds the torque that the machine really takes.
+// A rod that bends counts as rigid: stated with its size, and the error holds the torque that the machine really takes.
 TEST(CompiledMachine, ReportsWhatABendingRodChanges) {
   const Forces f = find_forces(test::scene_file("tests/agreement/slender_rod_small.toml"), {});
   ASSERT_TRUE(f.simulated);
@@ -186,7 +186,7 @@ until = "{} s"
 accuracy = 1e-9
 )";
 
-// A press that makes a stroke each 2 s turns at 30 rpm in the mean, though it stands in none of its positions.
+// A press that makes a stroke each 2 s turns at 30 rpm on average, though it stands in none of its positions.
 TEST(ForcesOfTheSteadyMotion, CountTheTimeThatStrokesAreApart) {
   const Forces f = find_forces(test::scene_from(R"(
     line = ["motor", "gear", "wheel", "clutch", "press"]
@@ -228,7 +228,7 @@ TEST(ForcesWithoutASteadyMotion, HaveAnErrorThatHoldsTheNextCycle) {
   EXPECT_NEAR(work, a.kinetic_change.value, -1e-6 * a.kinetic_change.value);
 }
 
-// Two cranks, one at twice the speed: the machine comes again after two cycles of the fast one, which its peaks know.
+// Two cranks, one at twice the speed: the machine repeats after two cycles of the fast one, which its peaks know.
 TEST(ForcesOfTheSteadyMotion, GoOnUntilTheWholeMachineRepeats) {
   const Scene scene = test::scene_from(R"(
 line = ["motor", "fast", "gear", "slow"]

@@ -238,7 +238,7 @@ accuracy = 1e-9
                b = forces_of(fmt::format(fmt::runtime(central), -30));
   for (const auto& [one, other] :
        {std::pair{&*a.prescribed, &*b.prescribed}, std::pair{&*a.simulated, &*b.simulated}}) {
-    // On the scale of what the main bearing bears at the radius: undriven, the simulated crank needs no torque at all.
+    // On the scale of the main bearing's load at the radius: undriven, the simulated crank needs no torque at all.
     EXPECT_NEAR(one->torque.value, -other->torque.value, 1e-7 * 0.1 * one->reaction(0).value) << one->label;
     EXPECT_NEAR(one->reaction(0).value, other->reaction(0).value, 1e-7 * one->reaction(0).value);
     EXPECT_NEAR(one->mean_speed.value, -other->mean_speed.value, 1e-8 * one->mean_speed.value);

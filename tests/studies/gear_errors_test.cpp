@@ -145,7 +145,7 @@ TEST(GearErrors, of_a_moment_of_inertia_cover_an_outline_of_twenty_times_as_many
   }
 }
 
-// The pair of the page's example, all of it: nothing is told without an error but what is counted or given.
+// The pair of the page's example, all of it: nothing is stated without an error but what is counted or given.
 TEST(GearErrors, stand_beside_every_figure) {
   const Gears gears = find_gears(test::scene_file("scenes/gear_pair.toml"), {.pair = "", .speed = 100.0});
   const StudyOutput output = output_of(gears);

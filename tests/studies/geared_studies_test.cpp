@@ -195,8 +195,8 @@ Result run_with_elasticity(const Scene& scene) {
   return simulate(scene, scene.effects, "full", {.measure_error = false, .method = {}, .accuracy = {}, .until = {}});
 }
 
-// A free swing of ±θ̂: ∫|τ dθ| is ½ k θ̂² in each quarter of a period. Nothing drives: it counts over the energy of the
-// motion, which is that of the turning again after a whole period.
+// A free vibration of ±θ̂: ∫|τ dθ| is ½ k θ̂² in each quarter of a period. Nothing drives: it counts over the energy of
+// the motion, which is that of the turning again after a whole period.
 TEST(Screens, ActivityIsTheEnergyThatGoesThroughTheCoupling) {
   const double j1 = 0.3, j2 = 0.9, k = 2500, twist = 0.02, omega = std::sqrt(k * (1 / j1 + 1 / j2));
   const Scene scene = test::scene_from(fmt::format(R"(
@@ -241,7 +241,7 @@ run = { start = { speed = "30 rad/s" }, until = "10 ms" }
   }
 }
 
-// Twice a turn a rod that bends at ω_n swings by 1/(1 − (2ω/ω_n)²) as much as it sags; from ω_n = 2ω on, against it.
+// Twice a turn a rod that bends at ω_n vibrates by 1/(1 − (2ω/ω_n)²) as much as it sags; from ω_n = 2ω on, against it.
 TEST(Screens, RodIsAmplifiedAsByItsSecondOrder) {
   const double per_length = 0.6 / 0.5, bending = 200e9 * 8e-3 * std::pow(10e-3, 3) / 12;
   const double own = std::pow(pi / 0.5, 2) * std::sqrt(bending / per_length);

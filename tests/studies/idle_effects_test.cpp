@@ -1,4 +1,4 @@
-// idle_effects_test.cpp — what goes along with variable inertia is told, and in no advice.
+// idle_effects_test.cpp — what goes along with variable inertia is reported, and in no advice.
 #include <gtest/gtest.h>
 
 #include <algorithm>

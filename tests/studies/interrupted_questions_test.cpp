@@ -19,7 +19,7 @@ GivenOptions options_of(const std::string& question) {
   return {};
 }
 
-// Interrupted after so long; 0: from the begin.
+// Interrupted after so long; 0: from the start.
 void show_interrupted(const Question& question, const Scene& scene, std::chrono::microseconds after) {
   std::atomic<bool> interrupted = after.count() == 0;
   Inquiry inquiry{.scene = scene, .text = scene.text, .file = scene.file, .settings = {}};

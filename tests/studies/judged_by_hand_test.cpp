@@ -238,7 +238,7 @@ fan = {{ kind = "inertia", inertia = "5 kg*m2" }}
   EXPECT_TRUE(search("stages = [{ teeth = [20, 30] }, { teeth = [25, 50] }], efficiency = 1").empty());
 }
 
-// √(∫τ² dt/t) over the time that it ran, when told to run shorter than its scene: J₂/(J₁ + J₂) M, constant.
+// √(∫τ² dt/t) over the time that it ran, when set to run shorter than its scene: J₂/(J₁ + J₂) M, constant.
 TEST(Figures, RootMeanSquareIsOverTheTimeThatWasRun) {
   const Scene scene = test::scene_from(R"(
 line = ["a", "c", "b"]

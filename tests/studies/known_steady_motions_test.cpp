@@ -107,7 +107,7 @@ SteadyCycle steady_of(const std::string& text) {
   return study.cycles.at(0);
 }
 
-// A load that grows with the speed takes what the source gives in the mean: Ω = M₀/d.
+// A load that grows with the speed takes what the source gives on average: Ω = M₀/d.
 TEST(KnownSteadyMotions, OfDrivenChains) {
   Held held;
   std::mt19937 random(2026);
@@ -134,7 +134,7 @@ TEST(KnownSteadyMotions, OfDrivenChains) {
   }
 }
 
-// Nothing brakes: the momentum of the start and of what the source has given by then, P = ∑ J ω₀ + M/ω, is kept in the mean.
+// Nothing brakes: the momentum of the start and of what the source gave by then, P = ∑ J ω₀ + M/ω, is kept on average.
 TEST(KnownSteadyMotions, OfFamiliesKeepTheMomentumOfTheStart) {
   Held held;
   std::mt19937 random(2027);

@@ -61,7 +61,7 @@ TEST_P(OfMachine, WithAllItsEffectsIsComparedWithItselfWithoutElasticity) {
   EXPECT_EQ(pair.label_a, "bare");
 }
 
-// The same text told by another set of effects: each is on in some rung, and stays on from there.
+// The same text with another set of effects: each is on in some rung, and stays on from there.
 void expect_whole_ladder(const Scene& scene) {
   const std::vector<EffectUnit> units = effect_units(scene);
   const std::vector<ModelRung> rungs = model_rungs(scene);

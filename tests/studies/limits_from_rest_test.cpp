@@ -1,5 +1,5 @@
-// limits_from_rest_test.cpp — what a coupling bears on its way from rest and in steady motion, against DIN 740-2's own
-// estimates on two masses; which speeds are barred; what is undecided.
+// limits_from_rest_test.cpp — what a coupling carries on its way from rest and in steady motion, against DIN 740-2's
+// own estimates on two masses; which speeds are barred; what is undecided.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -127,7 +127,7 @@ TEST(LimitsFromRest, BrakeThatTheSequenceReleasesIsReleased) {
   EXPECT_LT(verdict_on(m, "nominal").value, 15);  // 37 with the brake on
 }
 
-// A worm gear's losses, left out of modes, number the network otherwise: the coupling is found by its name.
+// A worm gear's losses, omitted by modes, number the network otherwise: the coupling is found by its name.
 TEST(LimitsFromRest, CouplingIsItselfInTheMachineWithAllItsEffects) {
   Scene scene = test::scene_file("scenes/inclined_conveyor.toml");
   for (Section& s : scene.components)
@@ -164,7 +164,7 @@ std::string shaken_table(double mean, double vibratory) {
       points);
 }
 
-// The resonance at 80 rad/s is run through: more than the shock of the start, less than the steady swing at it.
+// The resonance at 80 rad/s is run through: more than the shock of the start, less than the steady amplitude at it.
 TEST(LimitsFromRest, ResonanceRunThroughStaysBelowTheSteadyAmplitudeAtIt) {
   const std::string text = fan(60, 1, "maximum_torque = \"150 N*m\"", shaken_table(0, 20));
   const ModesStudy m = modes_of(text, {.fastest = 120});
@@ -256,7 +256,7 @@ LimitedJoint joint_of(const DriveLimits& limits, double rated = 40, bool has_pla
   joint.rated = rated, joint.has_play = has_play, joint.limits = limits;
   return joint;
 }
-// Mean and a resonance curve of width 5 around 80 rad/s, no swing far from it.
+// Mean and a resonance curve of width 5 around 80 rad/s, no vibration far from it.
 std::vector<SpeedLoads> resonance(double mean, double vibratory) {
   std::vector<SpeedLoads> sweep;
   for (int i = 10; i <= 150; ++i) {
@@ -394,7 +394,7 @@ ripple = { kind = "torque source", on = "disc", torque = "0 N*m", amplitude = "0
   }
 }
 
-// Where halves may part and the torque changes sign they hammer, however small the swing: told apart from the size of it.
+// Where halves may part and the torque changes sign they hammer, however small the amplitude: reported separately.
 TEST(BarredRanges, HammeringIsReportedSeparately) {
   DriveLimits wide;
   wide.maximum = 1000;

@@ -1,5 +1,5 @@
-// limits_test.cpp — what the limits of a coupling say of a drive whose mean torque is negative, that swings faster than
-// 10 Hz, or that passes a resonance: against the closed form of two masses.
+// limits_test.cpp — what the limits of a coupling say of a drive whose mean torque is negative, that vibrates faster
+// than 10 Hz, or that passes a resonance: against the closed form of two masses.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ constexpr double pi = std::numbers::pi;
 constexpr double near_inertia = 0.5, far_inertia = 1.5, stiffness = 2400, damping = 6;  // ω₀ = 80 rad/s
 constexpr double drive = 40, vibratory = 8, speed = 100;
 
-// Two masses on a spring. The load M = −(40 + 8 cos φ) N·m swings once a turn; `sense` −1: all of it turned round.
+// Two masses on a spring. The load M = −(40 + 8 cos φ) N·m oscillates once a turn; `sense` −1: all of it reversed.
 std::string two_masses(int sense, const std::string& limits, const std::string& further = "") {
   return fmt::format(R"(
 line = ["source", "k1", "disc"]
@@ -78,7 +78,7 @@ const Verdict& verdict_on(const ModesStudy& m, const std::string& what) {
   throw std::runtime_error("no verdict on " + what);
 }
 
-// DIN 740: S_f = √(f/10 Hz) above 10 Hz, of a swing by the order as of one by a frequency of its own.
+// DIN 740: S_f = √(f/10 Hz) above 10 Hz, of a vibration by the order as of one by a frequency of its own.
 TEST(Limits, AmplitudesAboveTenHertzCountWithTheRootOfTheirFrequency) {
   const std::string limits = "vibratory_torque = \"30 N*m\"";
   const ModesStudy by_order = modes_of(two_masses(1, limits));

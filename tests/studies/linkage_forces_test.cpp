@@ -94,8 +94,8 @@ TEST(ForcesInALinkage, GoThroughChangePointsWithTheMachine) {
   }
 }
 
-// The crank turns evenly: ω_i of the rocker over its sweep. Its swing has no mean, its greatest speeds are those of the
-// geometry; a link of the mechanism that turns with the shaft has its speed.
+// The crank turns evenly: ω_i of the rocker over its sweep. Its motion has no mean, its greatest speeds are those of
+// the geometry; a link of the mechanism that turns with the shaft has its speed.
 TEST(ForcesInALinkage, GivesSpeedsOfTheLinks) {
   ForcesOptions options;
   options.simulate = false;
@@ -250,8 +250,8 @@ start = { speed = "30 rad/s" }
   EXPECT_LT(c.power_residual, 1e-12);
 }
 
-// A pump's barrel swings about C, the oil acts along A C. On rod and barrel it goes through the pins A and C, on crank and frame, the
-// first bodies there, through none of them.
+// A pump's barrel rocks about C, the oil acts along A C. On rod and barrel it goes through the pins A and C, on crank
+// and frame, the first bodies there, through none of them.
 TEST(ForcesInALinkage, ActOnTheLinksThatAreNamedAtAPin) {
   const auto reaction_of_the_rods_pin = [](const char* between) {
     const Scene scene = test::scene_from(fmt::format(R"(

@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, MachineViewOf,
                          [](const auto& info) { return std::string(info.param.scene); });
 
 // A clutch that is open for half a second and then takes b along: its sides turn apart by 120 rad/s · 0.5 s, and while it
-// slips under its 40 N·m by heat/torque. None of that is twist of the shaft behind it, which bears at most twice the step.
+// slips under its 40 N·m by heat/torque. None of that is twist of the shaft, which carries at most twice the step.
 TEST(MachineView, DistinguishesSlipFromTwist) {
   constexpr double torque = 40, stiffness = 1000, apart = 120, open = 0.5;
   SimulateOptions options;

@@ -34,7 +34,7 @@ Margins margins_of(const Scene& scene, const ModesOptions& options = {}) {
   return find_modes(scene, scene.effects, options).margins;
 }
 
-// A motor's rated speed is told of the link behind its gear.
+// A motor's rated speed is stated for the link behind its gear.
 TEST(Margins, SpeedsAreThoseOfTheLink) {
   const Scene scene = test::scene_from(R"(
     line = ["motor", "gear", "crank"]
@@ -265,7 +265,7 @@ operation = { speeds = ["80 rad/s"] }
   EXPECT_NEAR(spread, 2 * 1.95996 * 0.5 * std::hypot(0.03, 0.04), 0.02 * spread);
 }
 
-// Nothing excites it: the diagram has the orders, the mode and the range all the same, and the sentence tells the nearest.
+// Nothing excites it: the diagram has the orders, the mode and the range all the same, and the sentence the nearest.
 TEST(Margins, StandInTheDiagramWithoutAnyExcitation) {
   const Scene scene = test::scene_from(geared("[operation]\nspeeds = [\"1200 rpm\", \"1300 rpm\"]\n"));
   const ModesStudy study = find_modes(scene, scene.effects, {});

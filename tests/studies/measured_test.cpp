@@ -154,7 +154,7 @@ TEST(Alignment, OfWhatRepeatsTheSmallestShiftIsTaken) {
   EXPECT_FALSE(align(m, {Signal({0, 4}, {1, 1})}));
 }
 
-// Three turns of the press's steady cycle, recorded from another moment on: its phase is found, and told in the page.
+// Three turns of the press's steady cycle, recorded from another moment on: its phase is found, and stated in the page.
 TEST_F(Measured, ASteadyCycleTakesTheTimeModuloItsPeriod) {
   const Scene scene = scene_file("scenes/crank_press.toml");
   SteadyOptions options;
@@ -289,7 +289,7 @@ TEST_F(Measured, UnitsOfHeadingsAndOptionsAreConvertedToSi) {
   }
 }
 
-// Rows of which a mapped column has no number are left out and counted; other columns do not matter.
+// Rows of which a mapped column has no number are omitted and counted; other columns do not matter.
 TEST_F(Measured, RowsWithoutANumberAreLeftOut) {
   const std::string path =
       file("time [s];T1 [N*m];w [rpm]\n0;1,5;2\n1;;3\n2;3,5;NaN\n3;4,5;---\n4;5,5;6\n5;6,5;7\n6;7,5\n");

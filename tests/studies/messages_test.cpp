@@ -40,7 +40,7 @@ TEST(Messages, SeriesMotorThatRunsAwayFromAFanIsNotSaidToBeWithoutALoad) {
   ASSERT_FALSE(r.complete);
   EXPECT_EQ(r.diagnosis.find("ithout a load"), std::string::npos) << r.diagnosis;
   EXPECT_NE(r.diagnosis.find("max_speed = 1193.66 rpm (by default 5 rated_speed)"), std::string::npos) << r.diagnosis;
-  // Nor is what was not drawn up told as nothing.
+  // Nor is what was not drawn up reported as nothing.
   EXPECT_EQ(output_of(r).text().find("nothing moves"), std::string::npos) << output_of(r).text();
   EXPECT_EQ(output_of(r).text().find("closed to 0"), std::string::npos);
 }
@@ -65,7 +65,7 @@ run = {{ until = "1 s", start = {{ speed = "{} rad/s" }} }}
   EXPECT_NE(output_of(works).text().find("energy balance closed to"), std::string::npos);
 }
 
-// An engine by a table over two turns; its load as told, or none.
+// An engine by a table over two turns; its load as given, or none.
 std::string engine(const std::string& load) {
   return R"(
 line = ["engine", "flywheel"]

@@ -17,7 +17,7 @@ namespace {
 using std::numbers::pi;
 constexpr double g = 9.80665;
 
-// tests/cases/mb05_adams_pendulum.toml as the crank of a four-bar without other masses; φ = 0 hangs.
+// tests/cases/mb05_adams_pendulum.toml as the crank of a four-bar without other masses; at φ = 0 the crank hangs.
 std::string pendulum(double from, const std::string& more = "") {
   return fmt::format(R"(
 line = ["pendulum"]
@@ -45,7 +45,7 @@ ModesStudy modes_of(const std::string& scene, const ModesOptions& options = {}) 
   return find_modes(read, read.effects, options);
 }
 
-// ω² = m g l/J, from the rest itself and from where it swings without end.
+// ω² = m g l/J, from the rest itself and from where it oscillates without end.
 TEST(ModesAtRest, PendulumOscillatesBySqrtOfMglOverJ) {
   const double omega = std::sqrt(1 * g * 2 / 4.1);
   for (const double from : {0.0, 90.0, -40.0}) {
@@ -60,7 +60,7 @@ TEST(ModesAtRest, PendulumOscillatesBySqrtOfMglOverJ) {
 }
 
 // At φ = 0 the rocker's ratio is that of the triangle with AD = ground − crank: what damps it damps the crank by ψ′².
-// A torque that swings with time shakes it there, and asks for no place beyond its arc.
+// A torque that oscillates with time shakes it there, and needs no place beyond its arc.
 TEST(ModesAtRest, PendulumMayBeShakenOverTime) {
   const std::string shaken = test::with(
       pendulum(20), "line = [\"pendulum\"]",
@@ -147,8 +147,8 @@ elasticity = true
   EXPECT_NEAR(m.modes[1].magnitude(), fast, 1e-3 * fast);
 }
 
-// A table that sticks and slips: friction holds it where its round begins, so that nothing can vibrate about that motion. Its
-// natural frequency is that of the spring all the same.
+// A table that sticks and slips: friction holds it where its cycle begins, so that nothing can vibrate about that
+// motion. Its natural frequency is that of the spring all the same.
 TEST(ModesAtRest, WhatFrictionHoldsHasItsNaturalFrequencies) {
   const Scene scene = test::scene_file("scenes/stick_slip.toml");
   const ModesStudy m = find_modes(scene, scene.effects, {});
@@ -174,7 +174,7 @@ TEST(ModesAtRest, WithoutAFreeShaftThereAreNone) {
   }
 }
 
-// Upside down it falls: λ = +√(m g l/J), told, and no frequency is made of it.
+// Upside down it falls: λ = +√(m g l/J), reported, and no frequency is made of it.
 TEST(ModesAtRest, RestUpsideDownIsStatedToGrow) {
   const ModesStudy m = modes_of(pendulum(0), [] {
     ModesOptions held;
@@ -187,7 +187,7 @@ TEST(ModesAtRest, RestUpsideDownIsStatedToGrow) {
   EXPECT_TRUE(reported);
 }
 
-// Without weights nothing brings it back: where it stands it does not swing, and pushed it comes to the end of its arc.
+// Without weights nothing brings it back: where it stands it does not oscillate; pushed it comes to the end of its arc.
 TEST(ModesAtRest, WithoutWeightsThereIsNothingToOscillateBy) {
   std::string light = pendulum(10);
   light.erase(light.find("gravity"), light.find("ground_angle") - light.find("gravity"));

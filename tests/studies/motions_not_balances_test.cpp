@@ -1,5 +1,5 @@
 // motions_not_balances_test.cpp — what is said of a machine is what it does: families keep their member, losses by the load
-// count everywhere, edges are looked at on both sides, a search that fails is no physics, round-off is no verdict.
+// count everywhere, edges are examined on both sides, a search that fails is no physics, round-off is no verdict.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -394,7 +394,7 @@ TEST(OscillationsAboutZero, AreASteadyMotion) {
   EXPECT_NEAR(figure_of(cycle, "cycle_max_speed.disc").value, w * amplitude, 1e-8);
   EXPECT_NEAR(figure_of(cycle, "vibration_amplitude.disc").value, amplitude, 1e-10);
   EXPECT_NEAR(figure_of(cycle, "vibration_frequency").value, 13, 1e-12);
-  // Its orders: the first alone, with the phase of M sin ωt, which a whole cycle of the excitation tells.
+  // Its orders: the first alone, with the phase of M sin ωt, which a whole cycle of the excitation gives.
   for (const auto& [name, exact] :
        {std::pair{"angle_order.1.disc", amplitude}, {"speed_order.1.disc", w * amplitude}}) {
     const Figure& order = figure_of(cycle, name);
@@ -408,7 +408,7 @@ TEST(OscillationsAboutZero, AreASteadyMotion) {
   EXPECT_EQ(cycle.find("angle_order.2.disc"), nullptr);
 }
 
-// Without damping nothing asks for a period: the disc vibrates at ω = √(k/J) with the amplitude ω₀/ω of its start.
+// Without damping nothing requires a period: the disc vibrates at ω = √(k/J) with the amplitude ω₀/ω of its start.
 TEST(OscillationsAboutZero, ByThemselvesKeepTheEnergyOfTheirStart) {
   std::mt19937 random(7);
   for (int k = 0; k < 3; ++k) {

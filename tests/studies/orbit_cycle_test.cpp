@@ -114,7 +114,7 @@ press = { kind = "slider-crank", radius = "50 mm", rod = "200 mm", crank_inertia
   EXPECT_NEAR(c.time, exact.time, 1e-9 * exact.time);
 }
 
-// A round of the steady cycle takes ∮dφ/ω.
+// A steady cycle takes ∮dφ/ω.
 TEST(OrbitCycle, TakesTheTimeOfItsSpeed) {
   const OrbitCycle cycle = cycle_of_scene(test::scene_from(R"(
 line = ["motor", "pump"]
@@ -165,7 +165,7 @@ TEST(OrbitCycle, FlywheelThatMeetsTheDemandHasItInTheSteadyCycle) {
     const OrbitCycle c = cycle_of_scene(sized);
     EXPECT_NEAR(c.delta(), 0.012, 2e-5 * 0.012) << name;
     EXPECT_NEAR(c.delta(), *s.meeting->delta, *s.reached.back().crank.error + 1e-8 * 0.012) << name;
-    // What the work equation leaves out is said with its size.
+    // What the work equation omits is said with its size.
     EXPECT_NE(s.notes.back().find("omits"), std::string::npos) << name << s.notes.back();
     // A simulation is said with the flywheel that it had, not with the one that meets the demand.
     const DeltaReached& first = s.reached.front();
@@ -177,7 +177,7 @@ TEST(OrbitCycle, FlywheelThatMeetsTheDemandHasItInTheSteadyCycle) {
   }
 }
 
-// The swing of an elastic belt is none of the work equation's, which asks for no flywheel.
+// The vibration of an elastic belt is none of the work equation's, which requires no flywheel.
 TEST(OrbitCycle, FlywheelThatOnlyTheElasticMachineNeedsIsProposed) {
   const Scene scene = test::scene_file("tests/agreement/belt_elastic_crank.toml");
   SizeOptions options;
@@ -191,7 +191,7 @@ TEST(OrbitCycle, FlywheelThatOnlyTheElasticMachineNeedsIsProposed) {
   EXPECT_NE(output_of(s).conclusion().find("By the work equation no flywheel is needed"), std::string::npos);
 }
 
-// A crank far behind a soft shaft swings however heavy the flywheel at the motor is.
+// A crank far behind a soft shaft vibrates however heavy the flywheel at the motor is.
 TEST(OrbitCycle, DemandThatNoFlywheelMeetsIsReportedWithTheLeast) {
   Scene scene = test::scene_from(R"(
 line  = ["motor", "wheel", "shaft", "press"]
@@ -228,7 +228,7 @@ TEST(OrbitCycle, ASearchThatFailsProvesNothingOfAFlywheel) {
   EXPECT_EQ(m.least, first.crank.value);
 }
 
-// A press that is declutched in the end: while the clutch is in, it has a cycle, which is taken where none is asked for.
+// A press that is declutched in the end: while the clutch is in, it has a cycle, which is taken if none is requested.
 TEST(OrbitCycle, PressWithItsClutchInIsSizedAsItIsThen) {
   const Scene scene = test::scene_file("scenes/press_drive.toml");
   SizeOptions sizing;
@@ -272,7 +272,7 @@ TEST(OrbitCycle, RefusalsAreOfPhysics) {
   EXPECT_NE(r.notes.front().find("no steady cycle"), std::string::npos);
 }
 
-// The classical basis is one option, and says what it leaves out.
+// The classical basis is one option, and says what it omits.
 TEST(OrbitCycle, ClassicalBasisSaysWhatItLeavesOut) {
   const Scene scene = test::scene_file("tests/agreement/gearbox_losses_crank.toml");
   SizeOptions options;
@@ -286,8 +286,8 @@ TEST(OrbitCycle, ClassicalBasisSaysWhatItLeavesOut) {
   EXPECT_TRUE(said("classical: gear losses"));
 }
 
-// Four cylinders without a mechanism, rigid: what run tells of its last cycle is what steady finds by Newton's method. Mean
-// speed by the governor: 1500 1/min where nothing is left to regulate.
+// Four cylinders without a mechanism, rigid: what run reports of its last cycle is what steady finds by Newton's
+// method. Mean speed by the governor: 1500 1/min where nothing is left to regulate.
 TEST(OrbitCycle, OfAnEngineWithoutAMechanismIsThatOfTheRun) {
   Scene scene = test::scene_file("docs/tasks/genset.toml");
   scene.effects = without_elasticity(scene.effects);

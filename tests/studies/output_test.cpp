@@ -97,7 +97,7 @@ TEST(Trajectory, NamesUnitsAndEndsAtTheEnd) {
   std::filesystem::remove_all(folder);
 }
 
-// A run that broke off because its motion had lost all values: none of them is told, anywhere.
+// A run that broke off because its motion had lost all values: none of them is reported, anywhere.
 TEST(Output, WhatHasNoValueInARunThatBrokeOffIsOmitted) {
   Result r = run(press_at_speed(), false);
   const std::string lost = r.figures.front().name, kept = r.figures.back().name;

@@ -1,5 +1,5 @@
-// periodic_modes_test.cpp — swings where coefficients or contacts change within the round: `modes` against pushes of the
-// settled run, each of a kind that the mean of the coefficients gets wrong.
+// periodic_modes_test.cpp — vibrations where coefficients or contacts change within the cycle: `modes` against pushes
+// of the settled run, each of a kind that the mean of the coefficients gets wrong.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ ModesStudy modes_of(const std::string& file) {
   return find_modes(scene, effects, {});
 }
 
-// Frequencies and damping ratios of all swings that the pushes show, and of none that they do not.
+// Frequencies and damping ratios of all vibrations that the pushes show, and of none that they do not.
 void expect_vibrations_of_the_run(const std::string& file) {
   SCOPED_TRACE(file);
   const agreement::Row row = agreement::compare_modes(test::scene_file(file));
@@ -31,13 +31,13 @@ void expect_vibrations_of_the_run(const std::string& file) {
   EXPECT_GT(compared, 0);
 }
 
-// A governor's slow swing: 0.2402 Hz, ζ = 0.691; its mode has little of the motion's states beside those of the coupling.
+// A governor's slow vibration: 0.2402 Hz, ζ = 0.691; its mode has little of the states beside those of the coupling.
 TEST(PeriodicOscillations, SlowOscillationOfAGovernorIsNotTakenForOneOfTheCoupling) {
   expect_vibrations_of_the_run("tests/agreement/governor_crank.toml");
 }
 
-// A limiter that slips once a round: both multipliers of the swing are real, of two signs, and their turns in a round are
-// a matter of counting.
+// A limiter that slips once a cycle: both multipliers of the vibration are real, of two signs, and their turns in a
+// cycle are a matter of counting.
 TEST(PeriodicOscillations, OscillationBehindALimiterIsLockedToTheCycle) {
   expect_vibrations_of_the_run("tests/agreement/vibrations/limiter_slips_with_shaft.toml");
   const ModesStudy study = modes_of("tests/agreement/vibrations/limiter_slips_with_shaft.toml");
@@ -48,14 +48,14 @@ TEST(PeriodicOscillations, OscillationBehindALimiterIsLockedToTheCycle) {
   }
 }
 
-// The pin lies on its bush all round; at the mean of its place it hangs in the gap and would swing at 0.9 Hz.
+// The pin lies on its bush at every angle; at the mean of its place it floats in the gap and would vibrate at 0.9 Hz.
 TEST(PeriodicOscillations, RodThatFloatsInTheGapOfTheMeanDoesNotOscillate) {
   expect_vibrations_of_the_run("tests/agreement/vibrations/worn_pin_shaft.toml");
   const ModesStudy study = modes_of("tests/agreement/vibrations/worn_pin_shaft.toml");
   EXPECT_TRUE(std::any_of(study.modes.begin(), study.modes.end(), [](const Mode& mode) { return mode.only_of_mean; }));
 }
 
-// A table that sticks once a round has forgotten how it swung before: its multiplier is 0.
+// A table that sticks once a cycle has forgotten how it vibrated before: its multiplier is 0.
 TEST(PeriodicOscillations, WhatSticksOnceACycleDoesNotOscillateOn) {
   const ModesStudy study = modes_of("tests/agreement/slow_stick_slip.toml");
   ASSERT_EQ(study.modes.size(), 1u);

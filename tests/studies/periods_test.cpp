@@ -260,8 +260,8 @@ accuracy = 1e-7
   EXPECT_FALSE(r.periods.standstill);
 }
 
-// A compressor swings about its dead centre, slower and slower, and is held for a moment where it turns: below 0.1 % for good
-// before the last such turn, which is no rest.
+// A compressor oscillates about its dead centre, slower and slower, and is held for a moment where it turns: below 0.1
+// % for good before the last such turn, which is no rest.
 TEST(Periods, AHoldThatEndsAnOscillationIsNoRest) {
   const Result r = run(R"(
 line = ["motor", "coupling", "flywheel", "machine"]
@@ -302,8 +302,8 @@ until = "40 s"
   EXPECT_TRUE(std::any_of(hold, r.events.end(), [](const Event& e) { return e.kind == EventKind::motion; }));
 }
 
-// Braked on the motor's side, the press swings on behind its coupling: at the end it passes through rest at less than 1 % of
-// its usual 170 rad/s, and was at 27 rad/s within the same swing.
+// Braked on the motor's side, the press vibrates on behind its coupling: at the end it passes through rest at less than
+// 1 % of its usual 170 rad/s, and was at 27 rad/s within the same half cycle.
 TEST(Periods, AnOscillationIsNotNearlyAtRestWhereItTurns) {
   const Result r = run(R"(
 line = ["motor", "brake", "coupling", "machine"]

@@ -157,7 +157,7 @@ TEST(Ratings, ShearStressOfAShaft) {
     )",
                                            elasticity));
     const double torque = figure(r, "peak_torque.shaft"), swings = *elasticity == 't' ? 2 : 1;
-    EXPECT_NEAR(std::abs(torque), swings * 300, 0.02 * 300);  // 400 · 1.5/2; applied at once it swings to twice that
+    EXPECT_NEAR(std::abs(torque), swings * 300, 0.02 * 300);  // 400 · 1.5/2; applied at once it peaks at twice that
     const auto verdicts = judge_ratings(r);
     ASSERT_EQ(verdicts.size(), 1u);
     EXPECT_NEAR(verdicts[0].value, 16 * std::abs(torque) / (pi * std::pow(0.03, 3)), 1e-9 * verdicts[0].value);

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// 30 N·m and 20 more or less over each turn; with a drag it turns at 15 rad/s in the mean.
+// 30 N·m and 20 more or less over each turn; with a drag it turns at 15 rad/s on average.
 RecordRequest driven(Over over, const char* drag) {
   RecordRequest request;
   request.name = "test", request.file = "test.csv", request.over = over;

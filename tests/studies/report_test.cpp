@@ -322,7 +322,7 @@ TEST(Report, TilesTakeUnitPrefixes) {
   EXPECT_EQ(page.figures.at(1).unit, "N*m");
 }
 
-// The first screen rounds as the conclusion does; what is known stands below.
+// The first screen has the digits of the conclusion; what is known stands below.
 TEST(Report, TilesRoundAndReportWhatIsKnown) {
   const TileText peak = tile_text({8874.28314, 0.0021}), drop = tile_text({0.104382, 0.0112}),
                  exact = tile_text({10, 0.0});

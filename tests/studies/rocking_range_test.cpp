@@ -108,7 +108,7 @@ TEST(RockingRange, ForcesAgreeWithTheReduction) {
     }
     EXPECT_NEAR(c.mean_speed.value, 20, 1e-10);
     EXPECT_TRUE(c.shaking_x.empty() && c.torque_orders.empty());
-    // Its largest torque is at an end, which is looked at itself.
+    // Its largest torque is at an end, which is examined itself.
     EXPECT_LT(*c.torque.error, 1e-9 * scale);
     const double grown = 200 * (r.positions.back().inertia - r.positions.front().inertia);
     EXPECT_NEAR(c.kinetic_change.value, grown, 1e-7 * std::abs(grown));

@@ -1,5 +1,5 @@
-// shaft_stress_test.cpp — what the swings make of a shaft, and what it may bear: by hand, against the closed form of two
-// masses, and as one cylinder does not fire.
+// shaft_stress_test.cpp — a shaft's stresses under vibration, and the allowable ones: by hand, against the closed form
+// of two masses, and as one cylinder does not fire.
 #include "studies/shafts/shaft_stress.h"
 
 #include <fmt/format.h>
@@ -78,7 +78,7 @@ TEST(UrM68, StrengthCountsUpToItsLimitAndTheCurveIsContinuous) {
   EXPECT_EQ(r.continuous(0.4, 1.06), HUGE_VAL);
 }
 
-// --- two masses on a shaft, the load swings once a turn ---
+// --- two masses on a shaft, the load oscillates once a turn ---
 
 constexpr double near_inertia = 0.5, far_inertia = 1.5, stiffness = 2400, damping = 0.6;  // ω₀ = 80 rad/s, ζ = 0.01
 constexpr double outer = 0.020, inner = 0.008, mean = 40;
@@ -232,7 +232,7 @@ TEST(ShaftStress, ResonanceNearTheRatedSpeedIsNotAllowed) {
   EXPECT_EQ(upper.state(), Compliance::exceeded);
 }
 
-// S (K_f τ_a + τ_W τ_m/(0.67 σ_B)) against τ_W, S |τ| against 0.577 σ_S, the amplitude against the maker's.
+// S (K_f τ_a + τ_W τ_m/(0.67 σ_B)) against τ_W, S |τ| against 0.577 σ_S, the amplitude against the manufacturer's.
 TEST(ShaftStress, GoodmanYieldAndTheManufacturersLimitOfTheSteadyMotion) {
   const ModesStudy m = modes_of(
       two_masses(8,
@@ -251,7 +251,7 @@ TEST(ShaftStress, GoodmanYieldAndTheManufacturersLimitOfTheSteadyMotion) {
   EXPECT_TRUE(m.barred[0].reason == "allowable_vibratory_stress" || m.barred[0].reason == "endurance_limit");
 }
 
-// A torque put on at once swings between none and twice its mean: τ_a = τ_m = 300 N·m/W_p in `run`.
+// A torque put on at once oscillates between none and twice its mean: τ_a = τ_m = 300 N·m/W_p in `run`.
 TEST(Ratings, WidestCycleOfAShaftAfterAShock) {
   const Result r = test::run(R"(
     line = ["a", "shaft", "b"]

@@ -65,8 +65,8 @@ run = {{ start = "rest", until = "20 s" }}
   EXPECT_GT(frequency[0], 1.1 * frequency[2]);  // the ring takes part or does not
 }
 
-// L di/dt = U − R i − k ω₁, J₁ ω̇₁ = k i − τ: current and inertia swing together, and what the static line would damp by
-// k²/R is something else.
+// L di/dt = U − R i − k ω₁, J₁ ω̇₁ = k i − τ: current and inertia oscillate together, and what the static line would
+// damp by k²/R is something else.
 TEST(SmallMotions, ArmatureCurrentIsAStateOfTheLinearSystem) {
   const ModesStudy m = modes_of(R"(
 line = ["motor", "coupling", "fan"]
@@ -87,7 +87,7 @@ run = { start = "rest", until = "20 s" }
   EXPECT_EQ(std::count_if(m.modes.begin(), m.modes.end(), [](const Mode& x) { return x.of_internal_states; }), 1);
 }
 
-// The base of a spring whose speed swings by A: τ = s X/(1 − s/(J ω²)), X = A/(iω), s = k + iωc.
+// The base of a spring whose speed oscillates by A: τ = s X/(1 − s/(J ω²)), X = A/(iω), s = k + iωc.
 TEST(SmallMotions, RippleOfAPrescribedSpeedExcitesTheDrive) {
   const ModesStudy m = modes_of(R"(
 line = ["drive", "c", "disc"]

@@ -1,4 +1,4 @@
-// speed_unit_test.cpp — people are told speeds in the scene's unit, programs in rad/s; what is told is the same.
+// speed_unit_test.cpp — people read speeds in the scene's unit, programs in rad/s; both are the same.
 #include "engine/scene/speed_unit.h"
 
 #include <gtest/gtest.h>

@@ -35,8 +35,8 @@ ModesStudy modes_of(const Scene& scene, const ModesOptions& options) {
   return find_modes(scene, scene.effects, options);
 }
 
-// The load swings little enough for its angle to be that of uniform motion: below, at and above the resonance of the third
-// order (59.6 rad/s), where the motor brakes, both are the same.
+// The load oscillates so little that its angle is that of uniform motion: below, at and above the resonance of the
+// third order (59.6 rad/s), where the motor brakes, both are the same.
 TEST(SpotChecks, LinearMachineIsItsLinearResponse) {
   const Scene scene = machine(spring, 0.04);
   const ModesStudy m = modes_of(scene, {.fastest = 90, .orders = 60, .spots = {20, 59.6, 85}});
@@ -93,8 +93,8 @@ struct TwoDiscs {
   }
 };
 
-// Beside the resonance that the mean stiffness gives, the joint's swing crosses its kink: the linear response is off by
-// many per cent, and the cycle is where an integration of the two discs comes to rest.
+// Beside the resonance that the mean stiffness gives, the joint's vibration crosses its kink: the linear response is
+// off by many per cent, and the cycle is where an integration of the two discs comes to rest.
 TEST(SpotChecks, ProgressiveCouplingOscillatesAsAnIndependentIntegrationSays) {
   const double top = 40;
   const Scene scene = machine(progressive, top);
@@ -126,7 +126,7 @@ TEST(SpotChecks, ProgressiveCouplingOscillatesAsAnIndependentIntegrationSays) {
   EXPECT_GT(most_off, 0.05);
 }
 
-// The range's peak is looked at first, and nothing near the operating speed.
+// The range's peak is examined first, and nothing near the operating speed.
 TEST(SpotChecks, LieWhereTheJointCarriesMost) {
   const ModesStudy m = modes_of(machine(spring, 40), {.fastest = 90, .spot_checks = 1});
   ASSERT_EQ(m.spots.size(), 1u);

@@ -1,5 +1,5 @@
-// static_curve_test.cpp — a static torque-speed curve holds for slow changes; where a drive swings faster, it lags by the
-// fluxes, which every study says, and one that may not lag is told to be too fast.
+// static_curve_test.cpp — a static torque-speed curve holds for slow changes; where a drive oscillates faster, it lags
+// by the fluxes, which every study says, and one that may not lag is said to be too fast.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Steady cycles and operating points as a user asks for them: closed forms, families, stalls, runaways.
+// Steady cycles and operating points as a user requests them: closed forms, families, stalls, runaways.
 #include "studies/steady/steady.h"
 
 #include <fmt/format.h>
@@ -470,7 +470,7 @@ TEST(OperatingPoints, MeanLoadTorqueIsWorkPerTurnOverTheTurn) {
   }
 }
 
-// Everything turned round: the same diagram of the other direction, whose torques drive and brake as before.
+// Everything reversed: the same diagram of the other direction, whose torques drive and brake as before.
 TEST(OperatingPoints, OfTheOtherDirectionAreTheSameMirrored) {
   const auto machine = [](int sense) {
     return fmt::format(

@@ -89,7 +89,7 @@ run = { start = { speed = "100 rad/s" }, until = "12 s", accuracy = 1e-10 }
   EXPECT_NEAR(figure(r, "stopping_time.motor"), 0.3 + gripping + left * 2 * J / 20, 1e-6);
 }
 
-// Nothing tells it to stop: a load that is too heavy does.
+// No command stops it: a load that is too heavy does.
 TEST(Stopping, IsNoneWithoutASignal) {
   const Result r =
       run(test::with(machine(R"({ at = "1 s", set = "load" })"), "torque = \"15 N*m\"", "torque = \"80 N*m\""));

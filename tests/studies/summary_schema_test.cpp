@@ -1,4 +1,4 @@
-// summary_schema_test.cpp — what every command tells programs is what docs/summary.schema.json says, nothing more.
+// summary_schema_test.cpp — what every command reports to programs is what docs/summary.schema.json says, nothing more.
 #include <unistd.h>
 
 #include <filesystem>
@@ -71,7 +71,7 @@ std::string misfit(const Json& rule, const Json& value, const std::string& at) {
   return {};
 }
 
-// Its key figures and its tables of figures say what they mean, and the dictionary knows that the command tells them.
+// Its key figures and its tables of figures say what they mean, and the dictionary knows that the command reports them.
 void expect_explained(const std::string& verb, const Findings& findings) {
   for (const KeyFigure& figure : findings.figures) {
     const Definition* d = definition_of(figure.means);

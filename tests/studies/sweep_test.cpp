@@ -83,7 +83,7 @@ TEST(SweepDesign, SobolPointsAreANetBothShiftedAndAsPublished) {
       std::vector<int> in_part(256, 0);
       for (std::size_t i = 0; i < 1024; ++i) ++in_part[static_cast<std::size_t>(256 * design.row(i)[k])];
       const auto [least, most] = std::minmax_element(in_part.begin(), in_part.end());
-      // As published the point 0 is left out, and one beyond the net stands in its place.
+      // As published the point 0 is omitted, and one beyond the net stands in its place.
       EXPECT_GE(*least, 3) << k << " seed " << seed;
       EXPECT_LE(*most, 5) << k << " seed " << seed;
     }

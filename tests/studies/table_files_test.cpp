@@ -186,7 +186,7 @@ TEST(TableFiles, OnlyWhatIsAskedForIsMade) {
   for (const char* bad : {"", "xls", "csv,", "csv;mat", "MAT"}) EXPECT_THROW(table_formats(bad), std::invalid_argument);
 }
 
-// A sheet to be printed is no table and has one form, whatever tables are asked for.
+// A sheet to be printed is no table and has one form, whatever tables are requested.
 TEST(TableFiles, WhatIsNoTableStaysAsItIs) {
   StudyOutput output = output_of(ringing());
   const std::string page = "<!doctype html>\n<p>a, b</p>\n<p>c, d, e, f</p>\n";

@@ -115,7 +115,7 @@ TEST(SimulatedTorque, OfAStartFromRestHasThePeakOfTheRun) {
   expect_history_of_the_run(test::scene_file("scenes/six_inertia_chain.toml"), "c1");
 }
 
-// Between the run's peak and what a run of another method and tolerance has there lies no more than the error told.
+// Between the run's peak and what a run of another method and tolerance has there lies no more than the stated error.
 TEST(SimulatedTorque, ErrorsOfItsExtremesCoverATighterRun) {
   for (const auto& [text, torque] : {std::pair{switched, "shaft"}, {rattling, "k1"}}) {
     Scene scene = test::scene_from(text);

@@ -94,7 +94,7 @@ TEST(Troubles, AStallBehindAClutchThatSlipsNamesTheClutch) {
       "it can transmit.");
 }
 
-// A crank asks 150 % of what its motor is rated for, in the mean of a cycle that repeats; nothing where a duty is judged.
+// A crank requires 150 % of its motor's rating, on average over a cycle that repeats; nothing where a duty is judged.
 TEST(Troubles, AMotorThatIsOverloadedForGoodGetsTooHot) {
   const std::string text = R"(
     line = ["motor", "flywheel", "crank"]

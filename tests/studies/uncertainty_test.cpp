@@ -75,7 +75,7 @@ TEST(Uncertainty, OfATwoMassResonanceIsItsClosedFormDistribution) {
   EXPECT_EQ(s.limits[0].holds + s.limits[0].beyond + s.limits[0].undecided, 4000u);
 }
 
-// Beyond either end of 95 % lies one of 40: fewer tell no ends.
+// Beyond either end of 95 % lies one of 40: fewer give no ends.
 TEST(Uncertainty, FewSamplesReportNoEndsOfTheirDistribution) {
   for (const std::size_t samples : {39u, 40u}) {
     UncertaintyOptions options;
@@ -105,7 +105,7 @@ TEST(Uncertainty, SharesOfTwoTolerancesAreThoseOfTheDerivatives) {
   EXPECT_NEAR(of_k.without.value, by_j, 1e-3 * by_j);
 }
 
-// Φ cut off at 0: of a deviation as large as the value 15.87 % lie below, and are told.
+// Φ cut off at 0: of a deviation as large as the value 15.87 % lie below, and are reported.
 TEST(Uncertainty, ADistributionIsCutOffWhereTheDomainEnds) {
   Tolerance t{.path = "a.b",
               .unit = "kg*m2",

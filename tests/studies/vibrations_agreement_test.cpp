@@ -1,5 +1,5 @@
-// vibrations_agreement_test.cpp — free and forced swings as runs show them, against closed forms; and `modes`, `forces`
-// against them: a small form of `kurbel_bench agreement2`.
+// vibrations_agreement_test.cpp — free and forced vibrations as runs show them, against closed forms; and `modes`,
+// `forces` against them: a small form of `kurbel_bench agreement2`.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ Scene vibration_scene(const std::string& name) {
 }
 SettledRun settled(const Scene& scene) { return settle(scene, scene.effects); }
 
-// Swinging eigenvalues with Im > 0, by frequency.
+// Eigenvalues of vibrations, with Im > 0, by frequency.
 std::vector<std::complex<double>> vibrations_of(const Eigen::MatrixXd& a) {
   std::vector<std::complex<double>> list;
   for (const std::complex<double>& value : eigenvalues(a))
@@ -77,7 +77,7 @@ stiffness = "6 kN*m/rad"
 damping = "3 N*m*s/rad"
 )";
 
-// --- free swings ---
+// --- free vibrations ---
 
 TEST(FreeOscillation, OfTwoInertiasHasTheirEigenvalues) {
   Eigen::MatrixXd a(3, 3);                     // twist, speeds
@@ -154,7 +154,7 @@ TEST(FreeOscillation, OfACrankIsWhatALongRingDownShows) {
   EXPECT_NEAR(found.list[0].omega / (2 * pi), 26.956, 0.001);  // 26.468 by the mean of its inertia
 }
 
-// --- forced swings ---
+// --- forced vibrations ---
 
 // 5 sin(2π 11 t) N·m on the drum: the coupling's torque is (k + iωc) θ of the linear drive.
 TEST(ForcedOscillation, OfASineIsTheComplexResponse) {
@@ -180,7 +180,7 @@ frequency = "11 Hz"
 
 // --- the machines ---
 
-// Kinds that join, drive, load or move: each swings, or is forced, in some machine of the matrix.
+// Kinds that join, drive, load or move: each vibrates, or is forced, in some machine of the matrix.
 TEST(AgreementOfOscillations, EveryKindOccursInSomeMachine) {
   std::string all;
   for (const char* folder : {"scenes", "tests/agreement", "tests/agreement/vibrations"})
@@ -223,8 +223,8 @@ TEST(AgreementOfOscillations, ModesSpeakOfDrivesWhoseInertiaIsConstant) {
   for (const char* name : {"backlash_closed", "limiter_holds", "one_way_clutch_drives", "brake_drags_shaft"})
     expect_agreement(compare_modes(vibration_scene(name)), name);
 }
-// Locked, a belt that slips swung at 18.0 Hz for 42.1, a clutch at 15.3 for 22.5, a damper of 0.05 and of 150 N·m·s/rad
-// alike; rubber without its branches had ζ 0.280 for 0.180.
+// Locked, a belt that slips vibrated at 18.0 Hz for 42.1, a clutch at 15.3 for 22.5, a damper of 0.05 and of 150
+// N·m·s/rad alike; rubber without its branches had ζ 0.280 for 0.180.
 TEST(AgreementOfOscillations, ModesSpeakOfWhatSlipsAndOfWhatRelaxes) {
   for (const char* name : {"belt_slips", "clutch_slips", "damper_loose", "damper_tuned", "damper_tight",
                            "fluid_coupling_shaft", "rubber_stiff_branch", "one_way_clutch_overruns"})

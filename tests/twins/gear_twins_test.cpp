@@ -26,7 +26,7 @@ class Twins : public EveryScene {
   std::size_t gear_step() const { return test::thorough() ? 1 : 2; }
 };
 
-// Each gear's twin, and how to tell one from the other; in steps of two every second gear, from the first or the second one on.
+// Each gear's twin, and how the two differ; in steps of two every second gear, from the first or the second one on.
 void for_all_gears(const TwinScene& scene,
                    const std::function<void(const std::string&, const std::string&, const TwinMap&)>& expect,
                    std::size_t first = 0, std::size_t step = 1) {
@@ -278,7 +278,7 @@ TEST(SteadyTwins, BehindAGearTheCycleIsThatOfTheReducedMachine) {
                                         "two-stroke engine by its torque"};
   for (TwinScene scene : twin_scenes()) {
     if (!cyclic.count(scene.name)) continue;
-    scene.reversible = false;  // the mechanism would run the other way, and be asked for the way it starts
+    scene.reversible = false;  // the mechanism would run the other way, and its direction of start would be needed
     for_all_gears(scene, expect_same_cycles);
   }
 }

@@ -252,7 +252,7 @@ load = { kind = "press", nominal_force = "3 kN", nominal_travel = "20 mm", rise 
   };
 }
 
-// What hangs on its shaft's angle keeps its place, and the rest is seen through the gear.
+// What depends on its shaft's angle keeps its place, and the rest is seen through the gear.
 inline std::vector<TwinScene> angle_scenes() {
   const std::string drive = R"(
 [sink]

@@ -146,7 +146,7 @@ TEST(TablesAndFormulas, DescribeOneMachine) {
 
 // --- later -----------------------------------------------------------------------------------------------------------
 
-// At rest and without torque until Δt, then all that is told by time Δt later: the same machine Δt later.
+// At rest and without torque until Δt, then all that is given over time Δt later: the same machine Δt later.
 TEST(TimeShift, EverythingThatIsReportedByTimeHappensThatMuchLater) {
   const auto text = [](double shift) {
     const auto at = [&](double t) { return fmt::format("\"{:.17g} s\"", t + shift); };

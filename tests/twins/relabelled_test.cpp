@@ -117,7 +117,7 @@ bool same_words(std::string a, std::string b) {
   for (std::string* text : {&a, &b})
     if (text->find("in proportion to capacity") != std::string::npos) std::sort(text->begin(), text->end());
   if (a == b) return true;
-  // A motion that never settles ends anywhere: how far it was then hangs on the last digit of its start.
+  // A motion that never settles ends anywhere: how far it was then depends on the last digit of its start.
   const std::string unsettled = "there is no steady cycle to look at: after ";
   if (a.starts_with(unsettled) && b.starts_with(unsettled)) return true;
   const std::size_t changing_a = a.find("the motion still changes by"),
@@ -199,7 +199,7 @@ void expect_same_output(const TwinScene& scene, const std::string& what, const S
   const auto said = [&](const std::string& text) {
     try {
       Scene read = scene_from(text);
-      read.speed_unit = {};  // words tell speeds in the scene's own unit
+      read.speed_unit = {};  // words state speeds in the scene's own unit
       return json_of(read);
     } catch (const std::invalid_argument& refused) {  // both alike
       return Json({{"refused", refused.what()}}).dump();

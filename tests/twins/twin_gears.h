@@ -1,4 +1,4 @@
-// twin_gears.h — the gears that machines stand behind, in the order in which scenes ask for them, and all scenes.
+// twin_gears.h — the gears that machines stand behind, in the order in which scenes need them, and all scenes.
 #pragma once
 
 #include "tests/twins/drive_scenes.h"

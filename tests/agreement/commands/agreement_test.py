@@ -84,7 +84,7 @@ SUMMARIES = {
     "modes": {"operating_point": {"speed": SPEED, "link": "crank"}, "joints": SPRINGS, "verdicts": run()["ratings"],
               "response": [{"joint": "coupling", "mean": 10.0, "cycle_peak": 30.0}], "modes": []},
 }
-# Where a pair asks for another kind of machine than the one above.
+# Where a pair needs another kind of machine than the one above.
 EQUILIBRIUM = {**SUMMARIES, "steady": {**STEADY, "cycles": [cycle("elastic", FULL, "equilibrium")]}, "modes": {
     **SUMMARIES["modes"], "modes": [{"number": 1, "error": 1e-9, "damped": {"real": math.log(0.1) / PERIOD, "imaginary": 40.0}}]}}
 OF_CYCLE = {**SUMMARIES, "reduce": {**SUMMARIES["reduce"], "basis": "steady", "harmonics": [{"name": "driving torque M_d", "orders": [

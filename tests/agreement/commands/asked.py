@@ -1,4 +1,4 @@
-"""What is asked of every scene, and what is asked because of an answer: a steady motion that is also run, and the like."""
+"""The questions put to every scene, and those that follow from an answer: a steady motion that is also run, etc."""
 import math
 import os
 import re

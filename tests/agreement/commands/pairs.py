@@ -42,7 +42,7 @@ def number(x):
 
 
 def values(figures, where, scale=0):
-    """{name: Value} of a list of figures; of equal names the first, and without those that are not told."""
+    """{name: Value} of a list of figures; of equal names the first, and without those that are not stated."""
     found = {}
     for f in figures:
         if number(f.get("value")):
@@ -80,7 +80,7 @@ def cycle_values(cycle, label="steady"):
     return found
 
 
-# --- runs of one machine, told by several commands ---
+# --- runs of one machine, reported by several commands ---
 
 def events_of(summary):
     return Counter((e["component"], e["kind"], e["what"]) for e in summary["events"])
@@ -248,7 +248,7 @@ def ended_and_steady(run, cycle, name):
         elif abs(left / speed) < SETTLED:
             yield Same(s.figure, plus(s.a, OF_OTHERS * abs(left / speed) * max(abs(s.b.value), s.b.scale)), s.b)
     if any(e["kind"] == "command" for e in run["events"]):
-        return  # of all cycles that come again between commands the heaviest counts as thermal use
+        return  # of all cycles that repeat between commands the heaviest counts as thermal use
     use = {d["component"]: d for d in cycle.get("drives", ())}
     for name_of, v in own.items():
         kind, _, component = name_of.partition(".")
@@ -281,7 +281,7 @@ def settled_and_steady(told):
     first, second = (values(r["figures"], "run settled") for r in runs)
 
     def own(name, scale=0):
-        """With the error of what is still to come; None where a period does not tell it."""
+        """With the error of what is still to come; None where a period does not show it."""
         a, b = first.get(name), second.get(name)
         if not a or not b:
             return None
@@ -437,7 +437,7 @@ def forces_and_steady(told):
                                             ("greatest_speed", "speed_extremes_error", f"cycle_max_speed.{name}")):
                 if figure_name in own and number(s[key]):
                     yield Same(figure_name, Value(s[key], s[error], f"forces simulated {key}"), own[figure_name])
-            # Extremes are over all cycles until it comes again, works over one of the crank.
+            # Extremes are over all cycles until it repeats, works over one of the crank.
             if "of them until it repeats" in s["description"]:
                 return
             turns = own.get("period").value * own.get("mean_speed." + name).value / s["cycle"] if own.get("mean_speed." + name) else None
@@ -449,7 +449,7 @@ def forces_and_steady(told):
 
 
 def modes_and_steady(told):
-    """The state that `modes` linearises at, and what swings there in the cycle itself."""
+    """The state that `modes` linearises at, and what oscillates there in the cycle itself."""
     modes, pair = told.get("modes"), same_effects(told.answers)
     if not modes or not pair or not pair[0].get("found"):
         return
@@ -538,7 +538,7 @@ def hot(conclusion):
 
 
 def too_hot(told):
-    """A motor that gets too hot in its steady motion does so in every command that tells that motion."""
+    """A motor that gets too hot in its steady motion does so in every command that reports that motion."""
     pair = same_effects(told.answers)
     if not pair or not pair[0].get("found") or not pair[1]["periods"]["steady"]:
         return
