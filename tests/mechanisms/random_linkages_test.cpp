@@ -1,5 +1,5 @@
 // random_linkages_test.cpp — random linkages of up to three dyads: closures, both extractions, reactions of both, energy, the
-// free body of every link. 40 of them; in the thorough form 500.
+// free body of every link. 500 of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -129,7 +129,7 @@ void expect_reactions(const LinkageData& data, const LinkageState& state, double
 }
 
 TEST(RandomLinkages, BothExtractionsAgreeInMotionAndReactions) {
-  const int wanted = test::thorough() ? 500 : 40;
+  constexpr int wanted = 500;
   std::mt19937 random(46);
   int good = 0, refused = 0;
   for (int tried = 0; good < wanted && tried < 60 * wanted; ++tried) {
