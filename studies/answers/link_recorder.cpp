@@ -55,8 +55,6 @@ void LinkRecorder::step(StepView& view) {
     const double fell = foremost_ - hindmost_;
     if (sense > 0 && fell > std::numbers::pi && fell_back() < 0.5 * fell)
       fell_before_ = std::max(fell_before_, fell), foremost_ = hindmost_ = angle_;
-    if (sense < 0 && sense_ >= 0) backwards_since_ = view.t();
-    sense_ = sense;
   }
   const bool drives = sources_.drive(equations.modes().active);
   if (drives && !driven_) driven_since_ = view.t_previous();
@@ -79,6 +77,10 @@ void LinkRecorder::step(StepView& view) {
     foremost_ = std::max(foremost_, extreme_);
   }
   if (from == 0 && to != 0) reversal_ = view.t_previous(), extreme_ = before;  // it rested where it may turn back
+  if (std::abs(speed) > least_sense * m_.speed_scale) {
+    if (sense < 0 && sense_ >= 0) backwards_since_ = reversal_;
+    sense_ = sense;
+  }
   const auto beyond = [&](double t) { return std::abs(link.gain * speed_at(t)) - least; };
   constexpr int parts = 8;
   double after = view.t(), beyond_after = std::abs(speed) - least;
