@@ -62,14 +62,19 @@ void LinkRecorder::step(StepView& view) {
     fell_before_ = 0, driven_to_ = angle_;
     if (speed > 0) foremost_ = hindmost_ = angle_;
   }
-  if (speed >= 0)
-    driven_back_ = 0;
-  else if (drives || driven_to_ - angle_ < m_.cycle)  // a mechanism's speed varies within its cycle
-    driven_back_ = std::min(driven_back_, speed);
   const double least = least_turning * m_.speed_scale;
   const auto speed_at = [&](double t) { return view.at(t, state); };
   const double from = speed_at(view.t_previous()), to = speed_at(view.t());
   const bool turns = std::abs(speed) > least, reverses = from * to < 0;
+  constexpr int parts = 8;
+  if (speed >= 0)
+    driven_back_ = 0;
+  else if (drives)
+    driven_back_ = std::min(driven_back_, speed);
+  else if (driven_to_ - angle_ < m_.cycle)  // a mechanism's speed varies within its cycle
+    for (int k = 1; k <= parts; ++k)
+      driven_back_ = std::min(
+          driven_back_, link.gain * speed_at(std::lerp(view.t_previous(), view.t(), static_cast<double>(k) / parts)));
   if (reverses) {
     reversal_ = find_root(speed_at, view.t_previous(), from, view.t(), to);
     extreme_ = angle_in(view.at(reversal_));
@@ -82,7 +87,6 @@ void LinkRecorder::step(StepView& view) {
     sense_ = sense;
   }
   const auto beyond = [&](double t) { return std::abs(link.gain * speed_at(t)) - least; };
-  constexpr int parts = 8;
   double after = view.t(), beyond_after = std::abs(speed) - least;
   if (turns) {
     turned_at_ = after;

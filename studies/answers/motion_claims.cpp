@@ -170,7 +170,8 @@ class Judge {
     if (!far && !(is_off() && speed() < -m_.speed_scale)) return {};
     const double torque = drive(), least = drives * m_.torque_scale;
     const bool since_off = r.periods.run_down_begin && recorder_.backwards_since() > *r.periods.run_down_begin;
-    if (torque < -least || (torque <= least && speed() >= recorder_.driven_back() && !since_off)) return {};
+    if (torque < -least || (torque <= least && speed() >= (1 + same_speed) * recorder_.driven_back() && !since_off))
+      return {};
     // What drives forwards has slowed it in the last quarter of the time, or will stop it within half a turn: no load is
     // stronger.
     const double slowing = std::abs(gain() * now_.alpha[shaft_]);
