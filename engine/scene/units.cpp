@@ -135,7 +135,7 @@ class UnitParser {
   std::optional<Unit> read_bracket() {
     const std::size_t begin = at_ - 1;
     if (in_bracket_) at_ = begin;
-    if (in_bracket_ || is_end_of_product()) return fail_unexpected();
+    if (in_bracket_ || (at_ < text_.size() && text_[at_] == ')')) return fail_unexpected();
     in_bracket_ = true;
     const std::optional<Unit> inner = read_product();
     in_bracket_ = false;

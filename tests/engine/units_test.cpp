@@ -161,6 +161,8 @@ TEST(Units, ErrorsNameTheSlip) {
   EXPECT_EQ(error_in("1/"), "unexpected \"/\" in a unit");
   EXPECT_EQ(error_in("3 m*5"), "unexpected \"5\" in a unit");
   EXPECT_EQ(error_in("3 N*m/(rad/s"), "a bracket is not closed");
+  EXPECT_EQ(error_in("3 N/("), "a bracket is not closed");
+  EXPECT_EQ(error_in("3 N/(("), "unexpected \"(\" in a unit");
   EXPECT_EQ(error_in("3 N*m/(rad/)"), "the unit ends in an operator");
   EXPECT_EQ(error_in("3 kg)"), "unexpected \")\" in a unit");
   EXPECT_EQ(error_in("3 kg*()"), "unexpected \")\" in a unit");
