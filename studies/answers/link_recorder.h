@@ -79,8 +79,8 @@ class LinkRecorder final : public Observer {
   bool began_ = false;
   bool driven_ = false;                                         // at the end of the last step
   double first_ = 0, angle_ = 0, foremost_ = 0, hindmost_ = 0;  // hindmost: since it was foremost
-  double driven_back_ = 0, driven_to_ = 0,
-         fell_before_ = 0;  // driven_to: the angle at which the drive was switched off
+  double driven_back_ = 0, fell_before_ = 0;
+  double driven_to_ = 0;  // the angle at which the drive was last switched off [rad]
   double begin_ = 0, turned_at_ = 0, backwards_since_ = 0, driven_since_ = 0;
   int sense_ = 0, turning_ = 0, turns_back_ = 0;  // turning: the sense in which it last turned
   double last_turn_ = 0, turn_before_ = 0;        // angles at which it turned back

@@ -170,6 +170,26 @@ run = {{ start = "rest", until = "12 s" }}
   EXPECT_TRUE(has(pushed, "its loads are stronger than the 20 N·m that drive it forwards")) << pushed;
 }
 
+// Behind the clutch a gear of 3 makes 60 N·m of its 20; in a line that begins with the load it makes 6.667 N·m.
+TEST(LoadsDrive, TheTorqueOfAClutchIsReducedToTheLink) {
+  const auto said_of = [](const char* line) {
+    return said(test::run(fmt::format(R"(line = [{}]
+motor = {{ kind = "dc shunt motor", stall_torque = "153 N*m", no_load_speed = "100 rad/s", inertia = "0.1 kg*m2" }}
+gearbox = {{ kind = "gearbox", stages = [{{ teeth = [20, 60], inertia = ["0.001 kg*m2", "0.01 kg*m2"] }}] }}
+clutch = {{ kind = "clutch", torque = "20 N*m", inertia_in = "0.01 kg*m2", inertia_out = "0.01 kg*m2" }}
+press = {{ kind = "slider-crank", radius = "100 mm", rod = "400 mm", crank_mass = "20 kg", crank_inertia = "3 kg*m2", slider_mass = "1 kg" }}
+drag = {{ kind = "load", torque = "90 N*m", inertia = "0.3 kg*m2" }}
+run = {{ start = "rest", until = "3 s" }}
+)",
+                                      line),
+                          false));
+  };
+  const std::string geared = said_of(R"("motor", "clutch", "gearbox", "press", "drag")");
+  EXPECT_TRUE(has(geared, "its loads hold the 60 N·m that drive it.")) << geared;
+  const std::string mirrored = said_of(R"("drag", "press", "gearbox", "clutch", "motor")");
+  EXPECT_TRUE(has(mirrored, "its loads hold the 6.667 N·m that drive it.")) << mirrored;
+}
+
 // A pendulum of 59 N·m behind that clutch comes to rest where it balances the clutch's torque.
 TEST(LoadsDrive, WhatRestsHasNoSpeedOfRounding) {
   const Result r = test::run(R"(line = ["motor", "clutch", "press"]
