@@ -63,6 +63,11 @@ std::vector<std::string> beyond_the_rigid_machine(const Scene& scene, const Mome
   return list;
 }
 
+double reduction_angle_at_start(const Model& m) {
+  const StartSettings& start = m.scene.run.start;
+  return start.on.empty() ? start.angle : start.angle / m.node_ratio[at(m.network.ports.at(start.on).in)];
+}
+
 std::optional<AngleRange> rocking_range(const Model& m, const std::optional<AngleRange>& given) {
   std::optional<AngleRange> range;
   for (const Network::ShaftElement& e : m.network.elements) {
@@ -71,8 +76,7 @@ std::optional<AngleRange> rocking_range(const Model& m, const std::optional<Angl
     const double ratio = m.node_ratio[at(e.node)];
     if (!arc || ratio == 0) continue;  // 0: it stands in the usual motion
     const double period = turn / std::abs(ratio);
-    const double start = m.scene.run.start.on.empty() ? m.scene.run.start.angle : 0,
-                 middle = (arc->middle - e.phase) / ratio;
+    const double start = reduction_angle_at_start(m), middle = (arc->middle - e.phase) / ratio;
     const double near = start + std::remainder(middle - start, period);
     const auto about = [&](double part) {
       const double half = part * arc->half / std::abs(ratio);

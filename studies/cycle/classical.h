@@ -22,6 +22,9 @@ std::vector<std::string> beyond_the_rigid_machine(const Scene& scene, const Mome
 // Compiles a scene already as of a moment (as_of), with its sources and loads at that time.
 std::shared_ptr<const Model> compile_at(const Scene& scene, const Effects& effects, const Moment& at);
 
+// Angle of the reduction link at the scene's start [rad]; angles of single components are not considered.
+double reduction_angle_at_start(const Model& model);
+
 // Part of its arc, about the middle, over which a rocking crank is examined unless another range is given: towards
 // the ends quantities reduced to it grow without bound, as 1/(distance to the end).
 inline constexpr double share_of_arc = 0.95;

@@ -56,6 +56,13 @@ ActingLoads left_by(const Sequence& sequence, const std::string& component, cons
   return some_of(std::move(left));
 }
 
+// Crank angle at the scene's start [rad]. Throws as compile.
+double crank_angle_at_start(const AskedMechanism& asked) {
+  const auto model = compile(asked.scene, classical_effects(asked.scene));
+  const Network::ShaftElement& crank = mechanism_element(model->network, asked.name);
+  return model->node_ratio[index(crank.node)] * reduction_angle_at_start(*model) + crank.phase;
+}
+
 // With the loads that act in the end; of a sequence that repeats: with all.
 std::shared_ptr<const Model> alone(const AskedMechanism& asked, const Effects& effects) {
   Network network;
@@ -73,6 +80,7 @@ std::shared_ptr<const Model> alone(const AskedMechanism& asked, const Effects& e
   }
   Scene bare;
   bare.file = asked.scene.file;
+  if (asked.mechanism().arc()) bare.run.start.angle = crank_angle_at_start(asked);
   return compile_network(std::move(network), bare, bare_machine(effects));
 }
 

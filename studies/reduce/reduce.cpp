@@ -44,7 +44,7 @@ class Reducer : MachineOnBasis {
     choose_target();
     if (machine_) {
       r_.begin = machine_->begin(), r_.cycle = machine_->cycle();
-      choose_speed(*machine_, options_, r_);
+      drive_slope_ = choose_speed(*machine_, options_, r_);
       if (!beyond_.empty() && !options_.speed && machine_->uses_speed())
         r_.speed_source += "; an estimate: " + omitted();
     } else {
@@ -125,7 +125,7 @@ class Reducer : MachineOnBasis {
     has_cycle_ = false;
     r_.notes.push_back(text);
     r_.cycle = machine_->cycle();
-    choose_speed(*machine_, options_, r_);
+    drive_slope_ = choose_speed(*machine_, options_, r_);
   }
   std::string omitted() const {
     return fmt::format("{} {} omitted", fmt::join(beyond_, ", "), beyond_.size() == 1 ? "is" : "are");
@@ -283,8 +283,9 @@ class Reducer : MachineOnBasis {
     constexpr std::pair<const char*, const char*> named[] = {
         {"reduced inertia I_r", "kg*m2"}, {"driving torque M_d", "N*m"}, {"resisting torque M_c", "N*m"}};
     const int orders = static_cast<int>(std::lround(options_.orders * r_.cycle / turn));
-    // What rounding leaves of the machine's torques where they cancel.
-    const double dust = 16 * std::numeric_limits<double>::epsilon() * model().torque_scale;
+    // What rounding of torques, and of the speed at which they balance, leaves where they cancel.
+    const double dust =
+        16 * std::numeric_limits<double>::epsilon() * std::max(model().torque_scale, std::abs(drive_slope_ * r_.speed));
     for (std::size_t i = 0; i < fine.size(); ++i) {
       Spectrum s = spectrum(named[i].first, named[i].second, fine[i], orders);
       if (loose) {
@@ -390,10 +391,13 @@ class Reducer : MachineOnBasis {
     } catch (const std::invalid_argument&) {  // no steady cycle over the link's angle
     }
   }
-  // "17.51 N·m instead of 16.2 N·m"; empty if four digits are equal.
-  static std::string in_place_of(double really, double here) {
+  // "17.51 N·m instead of 16.2 N·m"; "as here" if four digits are equal, or if the
+  // difference is within the precision of the steady motion.
+  std::string in_place_of(double really, double here) const {
+    constexpr double precision = 1e-8;  // of the torques
     const std::string a = fmt::format("{:.4g} N·m", really), b = fmt::format("{:.4g} N·m", here);
-    return a == b ? a + ", as here" : a + " instead of " + b;
+    const bool equal = a == b || std::abs(really - here) <= precision * model().torque_scale;
+    return equal ? b + ", as here" : a + " instead of " + b;
   }
   std::string and_effects() const {
     return scene_.effects.describe() == "none" ? "" : fmt::format(", and {}", scene_.effects.describe());
@@ -420,7 +424,8 @@ class Reducer : MachineOnBasis {
   std::optional<OrbitCycle> looser_;
   MachineReduction r_;
   int target_node_ = 0;
-  bool has_cycle_ = true;  // as far as it is known
+  double drive_slope_ = 0;  // of choose_speed
+  bool has_cycle_ = true;   // as far as it is known
   std::unique_ptr<SliderRatio> slider_;
   double largest_ratio_ = 0;
 };

@@ -77,24 +77,26 @@ int node_named(const Model& model, const std::string& name) {
   return end == "in" ? ports.in : ports.out;
 }
 
-void choose_speed(RigidMachine& machine, const ReduceOptions& options, MachineReduction& r) {
+double choose_speed(RigidMachine& machine, const ReduceOptions& options, MachineReduction& r) {
   const Model& m = machine.model();
   if (options.speed) {
     r.speed = *options.speed;
     r.speed_source = "given";
-    return;
+    return 0;
   }
   if (machine.uses_speed() && machine.periodic()) {
     try {
-      r.speed = operating_speed(machine).speed;
+      const OperatingSpeed found = operating_speed(machine);
+      r.speed = found.speed;
       r.speed_source = "the operating speed, at which the mean torques of drive and load balance";
-      return;
+      return found.drive_slope;
     } catch (const std::invalid_argument& error) {
       r.notes.push_back(fmt::format("no operating speed: {}", error.what()));
     }
   }
   r.speed = m.speed_scale;
   r.speed_source = machine.uses_speed() ? "rated speed" : "no torque depends on it";
+  return 0;
 }
 
 }  // namespace kurbel

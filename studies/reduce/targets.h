@@ -35,6 +35,7 @@ class SliderRatio {
 [[noreturn]] void refuse_target(const Model& model, const std::string& to);
 
 // For a reduction whose torques depend on speed: the given speed, the operating speed, or the rated speed.
-void choose_speed(RigidMachine& machine, const ReduceOptions& options, MachineReduction& r);
+// Returns dM_d/dω of the operating speed [N·m·s/rad], by which its rounding changes the mean driving torque; else 0.
+double choose_speed(RigidMachine& machine, const ReduceOptions& options, MachineReduction& r);
 
 }  // namespace kurbel
