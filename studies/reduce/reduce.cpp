@@ -284,8 +284,8 @@ class Reducer : MachineOnBasis {
         {"reduced inertia I_r", "kg*m2"}, {"driving torque M_d", "N*m"}, {"resisting torque M_c", "N*m"}};
     const int orders = static_cast<int>(std::lround(options_.orders * r_.cycle / turn));
     // What rounding of torques, and of the speed at which they balance, leaves where they cancel.
-    const double dust =
-        16 * std::numeric_limits<double>::epsilon() * std::max(model().torque_scale, std::abs(drive_slope_ * r_.speed));
+    const double dust = std::numeric_limits<double>::epsilon() *
+                        std::max(16 * model().torque_scale, 4 * std::abs(drive_slope_ * r_.speed));
     for (std::size_t i = 0; i < fine.size(); ++i) {
       Spectrum s = spectrum(named[i].first, named[i].second, fine[i], orders);
       if (loose) {

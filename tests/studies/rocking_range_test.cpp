@@ -126,7 +126,7 @@ TEST(RockingRange, BothStudiesTakeTheArcAtTheStart) {
                         {"{ angle = '410 deg' }", R"(["motor", "arm"])", "", 1, middle + 360},
                         {"{ on = 'arm', angle = '-320 deg' }", R"(["motor", "arm"])", "", 1, middle - 360},
                         {"{ angle = '1260 deg' }", R"(["motor", "gear", "arm"])",
-                         "gear = { kind = 'gearbox', ratio = 3 }", 3, middle + 360}};
+                         "gear = { kind = 'gearbox', stages = [{ teeth = [20, 60] }] }", 3, middle + 360}};
   for (const Case& c : cases) {
     std::string scene = double_rocker() + fmt::format("start = {}\n", c.start);
     scene.replace(scene.find(R"(["motor", "arm"])"), std::string(R"(["motor", "arm"])").size(), c.line);
