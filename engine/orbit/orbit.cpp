@@ -38,16 +38,19 @@ class Search {
         period_(map_->periodicity()),
         last_motion_(m_) {}
 
+  // A clocked sequence takes longer than its clock, so that every repetition begins late; nothing is found.
+  bool begins_late() const { return late_periods_ >= most_late_periods; }
+
   Orbit run() {
     state_.t = 0;
     state_.y = equations_.start(0);
     state_.modes = equations_.modes();
     try {
-      while (!done_ && run_periods_ < most_periods()) go_on();
+      while (!done_ && !begins_late() && run_periods_ < most_periods()) go_on();
     } catch (const std::runtime_error& error) {  // an element without solution, such as jamming joints
       end(Orbit::Kind::failed, error.what());
     }
-    if (!done_) drift();
+    if (!done_ && !begins_late()) drift();
     out_.cost += map_->cost();
     if (out_.state.y.empty()) out_.state = state_;
     return std::move(out_);
@@ -136,10 +139,22 @@ class Search {
     if (now.speed > far_beyond) return run_away(now.speed);
     aligned_ = aligned_ || by_time;
     events_.add(outcome.events);
+    if (is_late(outcome.events)) return;
     if (has_own_period() && is_settled() && find_own_period()) return;
     if (!round) return wait(now, speeds);
     patience_factor_ = 1;
     if (is_settled() && !aligning && !m_.scene.sequence.repeats_freely()) look(before, now);
+  }
+
+  // A repetition of a clocked sequence began late in the last period, or is late at its end.
+  bool is_late(const EventLog& events) {
+    const double clock = least_repetition(m_.scene.sequence) * (1 + 1e-9);
+    if (clock == 0) return false;
+    const bool late = std::any_of(events.begin(), events.end(), [&](const Event& e) {
+      return e.kind == EventKind::note && e.component == "sequence" && e.value > clock;
+    });
+    late_periods_ = late || state_.t - state_.modes.cycle_began > clock ? late_periods_ + 1 : 0;
+    return late_periods_ > 0;
   }
 
   // The link did not complete the period.
@@ -427,6 +442,8 @@ class Search {
   bool slow_ = false, settles_ = false;  // a period has changed little; what did not repeat came nearer to it
   bool repeated_ = false;                // the run did, at the last trial
   double patience_factor_ = 1, period_changes_ = HUGE_VAL;  // change of the own period at the last check [s]
+  static constexpr int most_late_periods = 8;
+  int late_periods_ = 0;  // in succession
   int run_periods_ = 0, settled_periods_ = 0, next_trial_ = 1, next_look_back_ = 16;
   std::vector<State> ends_;  // of the last settled periods before this one
   LastOscillation swings_;
@@ -444,7 +461,17 @@ OrbitOptions orbit_options(const RunSettings& run, const std::atomic<bool>* inte
 }
 
 Orbit find_orbit(std::shared_ptr<const Model> model, const OrbitOptions& options) {
-  return Search(std::move(model), options).run();
+  Search search(model, options);
+  Orbit found = search.run();
+  if (!search.begins_late()) return found;
+  // Each repetition begins when the one before it is done, as without a clock.
+  Scene scene = model->scene;
+  const double every = std::exchange(scene.sequence.every, 0);
+  const int before = found.cycles;
+  found = Search(compile_network(model->network, scene, model->effects), options).run();
+  found.cycles += before;
+  if (found.repeats()) found.words += fmt::format("; its steps take longer than every = {:.6g} s", every);
+  return found;
 }
 
 }  // namespace kurbel

@@ -72,7 +72,7 @@ Periodicity periodicity_of(const Model& m) {
   for (const CommandTarget& target : m.commands)
     if (const double period = lasting_period(m.scene.sequence, target.component); period > 0)
       times.push_back({period, target.component});
-  if (m.scene.sequence.every > 0) times.push_back({m.scene.sequence.every, "sequence"});
+  if (m.scene.sequence.every > 0) times.push_back({least_repetition(m.scene.sequence), "sequence"});
   for (const ElasticJoint& e : m.elastic) {
     const Network::Joint& joint = m.network.joints[at(e.joint)];
     if (joint.element->is.uses_angle) angles.push_back({turn / m.scale_ratio[at(joint.a)], joint.component});
@@ -94,6 +94,14 @@ Periodicity periodicity_of(const Model& m) {
   result.by_time = !times.empty();
   if (result.by_time) result.time = common_multiple(times, "s");
   return result;
+}
+
+double least_repetition(const Sequence& sequence) {
+  if (sequence.every == 0) return 0;
+  double waits = 0;
+  for (std::size_t i = 1; i < sequence.steps.size(); ++i)
+    if (sequence.steps[i].when == SequenceStep::When::after) waits += sequence.steps[i].value;
+  return std::max(sequence.every, waits);
 }
 
 double clock_of(const Model& m) try {

@@ -22,6 +22,10 @@ Periodicity periodicity_of(const Model& model);
 // period. A speed prescribed as a constant is none.
 double clock_of(const Model& model);
 
+// Least time from one repetition of a clocked sequence to the next [s]: `every`, or what its steps wait at least. 0: no
+// clock.
+double least_repetition(const Sequence& sequence);
+
 // The node with prescribed speed, except the frame; −1: none. Throws std::invalid_argument if there are
 // two.
 int prescribed_node(const Model& model);

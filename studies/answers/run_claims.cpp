@@ -64,6 +64,15 @@ class RunWords {
     constexpr double rounding = 1e-9;  // of the usual speed
     return std::abs(value) > rounding * r_.model->speed_scale ? fmt::format(" ({})", speed(value)) : "";
   }
+  // The last repetition of a clocked sequence began late.
+  std::string late() const {
+    const double every = r_.model ? r_.model->scene.sequence.every : 0;
+    const auto last = std::find_if(r_.events.rbegin(), r_.events.rend(), [](const Event& e) {
+      return e.kind == EventKind::note && e.component == "sequence";
+    });
+    if (every == 0 || last == r_.events.rend() || last->t + last->value.value_or(0) < r_.until - every) return {};
+    return fmt::format(" instead of {}, as its sequence takes longer", seconds(every));
+  }
   // Nothing in the scene gives such a speed, and the cycles are too few to decide whether it goes on.
   std::string beyond(double speed) const {
     const double times = r_.model ? std::abs(speed) / r_.model->speed_scale : 0;
@@ -96,7 +105,7 @@ class RunWords {
                      of(*time));
     return claimed(Predicate::works_in_strokes,
                    fmt::format("\"{}\" makes single strokes{}, and rests between them", link(),
-                               time ? fmt::format(", one every {}", seconds(time->value)) : ""),
+                               time ? fmt::format(", one every {}{}", seconds(time->value), late()) : ""),
                    link(), time ? of(*time) : Evidence{});
   }
   std::optional<Claim> steady() const {
@@ -105,7 +114,7 @@ class RunWords {
         fmt::format("\"{}\" runs steadily at {}", link(), speed_and_sense(mean ? mean->value : p_.steady_speed));
     if (p_.run_up_end) text += fmt::format(" from {} on", seconds(*p_.run_up_end));
     const std::string period = r_.model ? period_in_words(p_, r_.model->cycle) : "";
-    if (!period.empty()) text += fmt::format(", where its motion repeats every {}", period);
+    if (!period.empty()) text += fmt::format(", where its motion repeats every {}{}", period, late());
     if (p_.run_down_begin) text += fmt::format(", runs down from {}", seconds(*p_.run_down_begin));
     if (p_.standstill) text += fmt::format(" and rests at {}{}", seconds(*p_.standstill), held());
     if (p_.run_down_begin) text += at_the_end();
