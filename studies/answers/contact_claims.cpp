@@ -122,10 +122,14 @@ class ContactJudge {
                         so_often(joint.let_go.times), limiter ? "" : " although it is closed", joint.let_go.first,
                         m_.network.joints[at(e.joint)].element->capacity),
             false);
+    const bool in_vain = !joint.gripped && joint.in_vain > 0 && !slipping_.count(name);
     spell(Predicate::clutch_slips_engaging, joint, joint.engaging,
-          fmt::format("\"{}\" slips while it engages, {}, first at {:.4g} s", name, so_often(joint.engaging.times),
-                      joint.engaging.first),
-          true);
+          in_vain ? fmt::format("\"{}\" slips whenever it is closed, {}, first at {:.4g} s, and is opened each time "
+                                "before its sides turn together",
+                                name, so_often(joint.engaging.times), joint.engaging.first)
+                  : fmt::format("\"{}\" slips while it engages, {}, first at {:.4g} s", name,
+                                so_often(joint.engaging.times), joint.engaging.first),
+          !in_vain);
     if (joint.open.times == 0) return;
     const bool to_the_end = joint.state == SlipRecorder::State::open && joint.open.times == 1 && joint.open.first == 0;
     add(claims_, claimed(Predicate::clutch_opened_by_command,
@@ -228,8 +232,8 @@ class ContactJudge {
   }
   void does_not_stop(const std::string& brake, double put_on, double speed, double change, double torque,
                      const std::string& slips) {
-    // Shafts that run steadily with it slow down within a cycle only.
-    const bool goes_on = result_.periods.steady && !result_.periods.run_down_begin;
+    // Shafts that run steadily with it slow down within a cycle only, unless a sequence repeats its braking.
+    const bool goes_on = result_.periods.steady && !result_.periods.run_down_begin && !m_.scene.sequence.repeat;
     const double braked = outcome_.t - put_on,
                  more = speed * change < 0 && !goes_on ? std::abs(speed / change) : HUGE_VAL;
     const Evidence evidence{

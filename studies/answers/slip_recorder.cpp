@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/numerics/index.h"
 #include "engine/numerics/turns.h"
@@ -52,6 +53,9 @@ void SlipRecorder::step(StepView& view) {
                                               : nullptr;
     if (spell && state != joint.state && spell->times++ == 0) spell->first = view.t_previous();
     joint.state = state;
+    joint.gripped = joint.gripped || state == State::locked;
+    if (state == State::open && std::exchange(joint.slips_closed, false)) ++joint.in_vain;
+    joint.slips_closed = joint.slips_closed || (state == State::engaging && joint.closed);
     if (!spell || state == State::open) continue;
     const ElasticJoint& e = m.elastic[joint.elastic];
     const auto speed = [&](int shaft, double t) {

@@ -30,10 +30,12 @@ class SlipRecorder final : public Observer {
     double usual_speed = 1;  // of its driving side [rad/s]
     State state = State::unknown;
     Spell open = {}, engaging = {}, let_go = {};
-    bool closed = true;  // over the last step
+    bool closed = true;                          // over the last step
+    bool gripped = false, slips_closed = false;  // has ever locked; has slipped at full command since it was open
+    int in_vain = 0;                             // times that it was opened again without having locked
     void remember(Tape& tape) {
       int now = static_cast<int>(state);
-      tape(now, closed, open, engaging, let_go);
+      tape(now, closed, gripped, slips_closed, in_vain, open, engaging, let_go);
       state = static_cast<State>(now);
     }
   };
