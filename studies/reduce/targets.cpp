@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/numerics/index.h"
+#include "engine/return_map/periodicity.h"
 #include "engine/scene/keys.h"
 
 namespace kurbel {
@@ -34,10 +35,20 @@ std::vector<std::string> shafts_of(const Model& model) {
   return names;
 }
 
+// A prescribed speed would set the link's: the ratio is that of the free machine, whatever its inertia.
+std::shared_ptr<const Model> without_prescribed_speed(std::shared_ptr<const Model> model) {
+  const int node = prescribed_node(*model);
+  if (node < 0) return model;
+  Network network = model->network;
+  network.nodes[at(node)].prescribed = -1;
+  network.nodes[at(node)].inertia += 1;
+  return compile_network(std::move(network), model->scene, model->effects);
+}
+
 }  // namespace
 
 SliderRatio::SliderRatio(std::shared_ptr<const Model> model, const std::string& mechanism)
-    : model_(std::move(model)), equations_(model_, false) {
+    : model_(without_prescribed_speed(std::move(model))), equations_(model_, false) {
   for (const Channel& channel : model_->pool_channels) {
     if (channel.name.of != mechanism) continue;
     if (channel.name.what == quantities::velocity) {
