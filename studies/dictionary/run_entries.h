@@ -137,8 +137,9 @@ inline constexpr Definition of_a_cycle[] = {
      "of a whole run with its start, nor of motion that does not repeat (cycle_fluctuation); an elastic machine has "
      "another δ at every shaft"},
     {"cycle_fluctuation", "fluctuation in the last cycle", "", "LINK", "2.6", of_runs,
-     "as δ, of the last whole cycle of a run that is not steady", "(ω_max − ω_min)/ω_mid",
-     "δ: run-up and drift are part of it, and another length of the run gives another value"},
+     "as δ, of the last whole cycle of a run that is not steady, or drifts by a tenth of this or more in a cycle; none "
+     "if most of it is drift",
+     "(ω_max − ω_min)/ω_mid", "δ: run-up and drift are part of it, and another length of the run gives another value"},
     {"cycle_time", "time of a cycle", "s", "LINK", "2.7", of_both,
      "time in which the reduction link turns through one cycle: the least angle after which it is back in place, 2π of "
      "a crank, 4π of a four-stroke engine",

@@ -243,7 +243,9 @@ class RunFigures {
     if (!has_cycle()) return;
     for (const QuantityKind& what : {quantities::delta, quantities::cycle_fluctuation})
       report_(what, link(), [&]() -> std::optional<Found> {
-        if ((what == quantities::delta) != (repeating_ != nullptr)) return {};
+        constexpr double slight = 0.1, most = 0.5;  // a range that is mostly drift is neither
+        const double part = last_ == cycles_.data() ? 0 : drift_of(*last_, last_[-1], tolerance_);
+        if (part > most || (what == quantities::delta) != (repeating_ && part <= slight)) return {};
         return Found{last_->fluctuation(), 1, last_->end};
       });
     report_(quantities::mid_speed, link(), [&] { return Found{last_->mid_speed(), model_.speed_scale, last_->end}; });

@@ -366,4 +366,10 @@ std::vector<CycleRecord> in_periods(const std::vector<CycleRecord>& cycles, int 
   return periods;
 }
 
+double drift_of(const CycleRecord& last, const CycleRecord& before, double tolerance) {
+  const double change = std::abs(last.mid_speed() - before.mid_speed());
+  if (change <= noise_of_tolerance * tolerance * std::abs(last.mid_speed())) return 0;
+  return change / std::abs(last.omega_max - last.omega_min);
+}
+
 }  // namespace kurbel

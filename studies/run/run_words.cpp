@@ -154,9 +154,11 @@ std::string figures_in_words(const Result& r) {
   if (const Figure* delta = first_of(r, quantities::delta); delta && delta->value < stands_within_the_cycle)
     more(fmt::format("the speed of \"{}\" fluctuates by δ = {}", delta->of, reported(*delta)));
   if (const Figure* cycle = first_of(r, quantities::cycle_fluctuation); cycle && cycle->value < stands_within_the_cycle)
-    more(fmt::format(
-        "the speed of \"{}\" changes by {} of its mid value in the last cycle, {}", cycle->of, reported(*cycle),
-        r.periods.remaining || r.periods.without_limit ? "which is not steady" : "whose steadiness is not judged"));
+    more(fmt::format("the speed of \"{}\" changes by {} of its mid value in the last cycle, {}", cycle->of,
+                     reported(*cycle),
+                     r.periods.steady                                 ? "part of which is drift"
+                     : r.periods.remaining || r.periods.without_limit ? "which is not steady"
+                                                                      : "whose steadiness is not judged"));
   for (const Figure& f : r.figures)
     if (f.words() == "thermal_use" && f.value <= 1)  // a greater one is reported before
       more(fmt::format("the thermal load of \"{}\" is {:.0f} % (RMS over rated torque{})", f.of, 100 * f.value,
