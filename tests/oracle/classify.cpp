@@ -63,8 +63,9 @@ class MotionJudge {
     j["cycle"] = m_.cycle, j["usual_speed"] = usual_, j["usual_torque"] = m_.torque_scale, j["until"] = until_;
     j["begins"] = turns_at(p_.front()) ? "turning" : "at rest";
     j["moves"] = moves(), j["end"] = end(), j["speed_at_end"] = p_.back().speed, j["held_at_end"] = p_.back().held;
-    j["fastest"] = fastest(), j["fastest_late"] = fastest_late(), j["to_and_fro"] = gain_to_and_fro(),
-    j["rests_since"] = rests_since(), j["held_since"] = held_since();
+    j["fastest"] = fastest(), j["fastest_late"] = fastest_late(),
+    j["to_and_fro"] = std::min(gain_to_and_fro(), gain_of_last_oscillation()), j["rests_since"] = rests_since(),
+    j["held_since"] = held_since();
     j["driven_at_end"] = p_.back().driven, j["drives_at_end"] = drives_at_end(), j["drive_at_end"] = p_.back().drive;
     j["load_at_end"] = p_.back().load, j["drives_until"] = drives_until();
     j["pushed_at_end"] = pushed(), j["falls"] = falls();
@@ -193,6 +194,18 @@ class MotionJudge {
     return n == 2 ? gain
                   : std::min(gain, std::abs(ends[n - 1] - ends[n - 3]) /
                                        (std::abs(ends[n - 1] - ends[n - 2]) + std::abs(ends[n - 2] - ends[n - 3])));
+  }
+  // Of the way from its last reversal but two to the last one, which is in the last quarter of the time, and which it has
+  // not left by more than a quarter beyond the half oscillation before; else 1.
+  double gain_of_last_oscillation() const {
+    std::vector<const Moment*> ends;
+    for (std::size_t k = 1; k < p_.size(); ++k)
+      if (p_[k].speed * p_[k - 1].speed < 0) ends.push_back(&p_[k]);
+    const std::size_t n = ends.size();
+    if (n < 3 || ends[n - 1]->t < 0.75 * until_) return 1;
+    const double last = ends[n - 1]->angle, way = std::abs(last - ends[n - 2]->angle);
+    if (std::abs(p_.back().angle - last) > 1.25 * way) return 1;
+    return std::abs(last - ends[n - 3]->angle) / (way + std::abs(ends[n - 2]->angle - ends[n - 3]->angle));
   }
   // At any point of the last 2 % of the time: what is held may tremble.
   bool pushed() const {

@@ -13,7 +13,8 @@
 //                             gained is less than a quarter of the way it went there, or in the last whole cycle of its
 //                             oscillation: the quarter may end at the other end of it than it begins
 //               "forwards", "backwards": else, by the sense of the last 2 % of the time
-//   to_and_fro  the smaller one of these two shares of the way; 1: it does not turn to and fro
+//   to_and_fro  the smallest one of these two shares of the way and that of its last oscillation, of any speed, which
+//               reversed in the last quarter of the time and goes on within it; 1: it does not turn to and fro
 //   fastest_late     the speed at the end; of one that vibrates the greatest of its last half cycle, or of the last 2 %
 //               of the time
 //   rests_since when it last turned, of one that rests; 0 where it never did
