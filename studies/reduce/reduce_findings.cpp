@@ -83,7 +83,8 @@ std::vector<Quantity> quantities_of(const MachineReduction& r) {
 }
 
 Rows positions_table(const MachineReduction& r) {
-  const std::string title = fmt::format("Reduced to {} at {} positions", r.to, r.positions.size());
+  const std::string title =
+      fmt::format("Reduced to {} at {} positions{}", r.to, r.positions.size(), r.to == r.link ? "" : " φ of " + r.link);
   auto table = table_of("", title, r.positions).headed(title).always();
   table.only_for_people("position", &ReducedPosition::number)
       .only_for_people("φ [°]", &ReducedPosition::phi, {.factor = in_degrees});
