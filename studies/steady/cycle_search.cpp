@@ -314,6 +314,12 @@ class Search {
     report_orders(out_.orders, options_.every_order, out_.figures);
     for (std::string& note : static_curve_notes(*map_, out_.point)) out_.notes.push_back(std::move(note));
     for (const std::string& note : substitutes(*out_.model)) out_.notes.push_back(note);
+    constexpr double all = 1 - 1e-6;
+    for (const Figure& f : out_.figures)
+      if (f.words() == "breakdown_use" && f.value >= all)
+        out_.notes.push_back(fmt::format(
+            "\"{}\" reaches its breakdown torque within the cycle: a heavier load, or a lower voltage, may stall it",
+            f.of));
     find_loads();
     if (options_.traces) follow();
   }
