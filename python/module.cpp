@@ -249,6 +249,40 @@ void bind_run(py::module_& m) {
       py::arg("offset") = std::vector<std::string>{}, py::arg("from_state") = "");
 }
 
+// A motion with the mark that a thread is in a call of it: calls that compute go without Python's lock.
+struct SharedMotion {
+  SharedMotion(const Machine& machine, const std::string& effects, double tolerance)
+      : motion(machine, effects, tolerance) {}
+  Motion motion;
+  std::atomic<bool> busy{false};
+};
+
+// A motion for the length of one call, for nobody else meanwhile.
+class Use {
+ public:
+  explicit Use(SharedMotion& shared) : shared_(shared) {
+    if (shared.busy.exchange(true)) throw std::runtime_error("this Motion is in use by another thread");
+  }
+  ~Use() { shared_.busy = false; }
+  Use(const Use&) = delete;
+  Use& operator=(const Use&) = delete;
+  Motion& operator*() const { return shared_.motion; }
+  Motion* operator->() const { return &shared_.motion; }
+
+ private:
+  SharedMotion& shared_;
+};
+
+// A member of Motion as a call that refuses to be made beside another one.
+template <class Answer, class... Given>
+auto alone(Answer (Motion::*member)(Given...) const) {
+  return [member](SharedMotion& shared, Given... given) { return ((*Use(shared)).*member)(given...); };
+}
+template <class Answer, class... Given>
+auto alone(Answer (Motion::*member)(Given...)) {
+  return [member](SharedMotion& shared, Given... given) { return ((*Use(shared)).*member)(given...); };
+}
+
 void bind_motion(py::module_& m) {
   py::class_<SavedState>(
       m, "State",
@@ -260,23 +294,31 @@ void bind_motion(py::module_& m) {
       .def(
           "__eq__", [](const SavedState& a, const SavedState& b) { return a == b; }, py::arg("other"),
           py::is_operator());
-  py::class_<Motion>(m, "Motion", "A machine in motion under its user's hands. For one thread at a time.")
+  py::class_<SharedMotion>(m, "Motion",
+                           "A machine in motion under its user's hands. For one thread at a time: while one is in a "
+                           "call, those of the others raise RuntimeError.")
       .def(py::init<const Machine&, const std::string&, double>(), without_lock, py::arg("machine"),
            py::arg("effects") = "", py::arg("tolerance") = 1e-9)
-      .def_property_readonly("time", &Motion::time, "[s]")
+      .def_property_readonly("time", alone(&Motion::time), "[s]")
       .def(
           "go_to",
-          [](Motion& motion, double time) { computed([&](const Watcher& watcher) { motion.go_to(time, watcher); }); },
+          [](SharedMotion& motion, double time) {
+            const Use use(motion);
+            computed([&](const Watcher& watcher) { use->go_to(time, watcher); });
+          },
           py::arg("time"), "On to a time [s], through all events on the way. Interrupted, it stands where it stood.")
-      .def_property_readonly("state", &Motion::state, "this moment, to come back to")
-      .def("restore", &Motion::restore, without_lock, py::arg("state"), "Back to a state of this machine.")
-      .def("state_from", &Motion::state_from, py::arg("text"), "A state of this machine from its text.")
-      .def_property_readonly("names", &Motion::names, "of all that can be read")
-      .def_property_readonly("units", &Motion::units, "SI, in the order of the names")
-      .def_property_readonly("state_names", &Motion::state_names, "what the entries of State.y are")
-      .def_property_readonly("values", &Motion::values, "of all names, now")
-      .def("__getitem__", &Motion::operator[], py::arg("name"), "A quantity now, in SI.")
-      .def("__repr__", [](const Motion& m) { return fmt::format("<Motion at {:.10g} s>", m.time()); });
+      .def_property_readonly("state", alone(&Motion::state), "this moment, to come back to")
+      .def("restore", alone(&Motion::restore), without_lock, py::arg("state"), "Back to a state of this machine.")
+      .def("state_from", alone(&Motion::state_from), py::arg("text"), "A state of this machine from its text.")
+      .def_property_readonly("names", alone(&Motion::names), "of all that can be read")
+      .def_property_readonly("units", alone(&Motion::units), "SI, in the order of the names")
+      .def_property_readonly("state_names", alone(&Motion::state_names), "what the entries of State.y are")
+      .def_property_readonly("values", alone(&Motion::values), "of all names, now")
+      .def("__getitem__", alone(&Motion::operator[]), py::arg("name"), "A quantity now, in SI.")
+      .def("__repr__", [](SharedMotion& shared) {
+        if (shared.busy) return std::string("<Motion in use by another thread>");
+        return fmt::format("<Motion at {:.10g} s>", Use(shared)->time());
+      });
 }
 
 }  // namespace

@@ -53,7 +53,8 @@ def run(scene, *, set=None, effects=None, method=None, accuracy=None, until=None
 
 
 def motion(scene, *, set=None, effects="", tolerance=1e-9):
-    """A machine to be stepped: go_to(t), motion["torque.main_coupling"], state, restore(state)."""
+    """A machine to be stepped: go_to(t), motion["torque.main_coupling"], state, restore(state). For one thread at a time:
+    a call while another thread is in one raises RuntimeError."""
     return Motion(machine(scene, set=set), **choices_of(effects=effects, tolerance=tolerance))
 
 

@@ -62,6 +62,41 @@ class Threads(unittest.TestCase):
         for name, figure in alone.figures.items():
             self.assertEqual(beside.figures[name].value, figure.value, name)
 
+    def test_a_motion_is_for_one_thread_at_a_time(self):
+        motion, other, refused = kurbel.motion(PRESS), kurbel.motion(PRESS), []
+        motion.go_to(0.1)
+        kept = motion.state
+        uses = {"go_to": lambda: motion.go_to(0.2), "restore": lambda: motion.restore(kept),
+                "state_from": lambda: motion.state_from(kept.text), "[]": lambda: motion["torque.main_coupling"],
+                **{name: (lambda name=name: getattr(motion, name)) for name in
+                   ("time", "state", "values", "names", "units", "state_names")}}
+
+        def meanwhile():
+            while threads() < before + 2:
+                pass
+            for name, use in uses.items():
+                try:
+                    use()
+                except RuntimeError as why:
+                    if str(why) == "this Motion is in use by another thread":
+                        refused.append(name)
+            refused.append(repr(motion))
+            other.go_to(0.1)  # another one is free
+            signal.raise_signal(signal.SIGINT)
+        before = threads()
+        worker = threading.Thread(target=meanwhile)
+        worker.start()
+        try:
+            with self.assertRaises(KeyboardInterrupt):
+                motion.go_to(1e5)
+        finally:
+            worker.join()
+        self.assertEqual(refused, [*uses, "<Motion in use by another thread>"])
+        self.assertTrue(motion.state == kept == other.state)
+        with self.assertRaises(KeyError):
+            motion["nothing"]
+        motion.go_to(0.2)  # after a fault, too, it is free
+
 
 class CtrlC(unittest.TestCase):
     def ended(self, lines):
