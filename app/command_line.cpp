@@ -224,7 +224,7 @@ void write_files(const StudyOutput& output, const StudyOptions& options, bool st
 }  // namespace
 
 int present(StudyOutput output, const StudyOptions& options) {
-  if (!output.words.empty()) say(output.words);
+  if (!output.words.empty()) say(options.json ? output.json() + "\n" : output.words);
   if (!output.aside.empty()) complain(fmt::format("kurbel: {}\n", output.aside));
   if (!output.words.empty()) return exit_done;
   // Settings are recorded in every summary.

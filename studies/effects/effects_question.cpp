@@ -11,18 +11,38 @@ namespace {
 
 struct NoOptions {};
 
-std::string list_of_effects() {
-  std::string list =
-      "elasticity — couplings and shafts twist; needs: a stiffness; states: a twist and a speed each; matters: where "
-      "an excitation meets a mode, and for starts and shocks; unless mentioned: off\n";
-  for (const EffectFlag& effect : effect_flags())
-    list += fmt::format("{} — {}; needs: {}; states: {}; matters: {}; unless mentioned: {}\n", effect.name, effect.adds,
-                        effect.parameters, effect.states, effect.matters, unsaid_text(effect));
+struct ListedEffect {
+  std::string name, adds, needs, states, matters, unsaid;
+};
+
+std::vector<ListedEffect> list_of_effects() {
+  std::vector<ListedEffect> list = {{"elasticity", "couplings and shafts twist", "a stiffness",
+                                     "a twist and a speed each",
+                                     "where an excitation meets a mode, and for starts and shocks", "off"}};
+  for (const EffectFlag& e : effect_flags())
+    list.push_back({e.name, e.adds, e.parameters, e.states, e.matters, unsaid_text(e)});
   return list;
 }
 
+StudyOutput all_effects() {
+  const std::vector<ListedEffect> list = list_of_effects();
+  std::string words;
+  for (const ListedEffect& e : list)
+    words += fmt::format("{} — {}; needs: {}; states: {}; matters: {}; unless mentioned: {}\n", e.name, e.adds, e.needs,
+                         e.states, e.matters, e.unsaid);
+  StudyOutput output = in_words(std::move(words));
+  output.title = "Effects";
+  output.reports_complete = false;
+  output.conclude(true, fmt::format("{} effects can be simulated.", list.size()));
+  output.record("effects", each(list, [](const ListedEffect& e) {
+                  return Record{{"effect", e.name},   {"adds", e.adds},       {"needs", e.needs},
+                                {"states", e.states}, {"matters", e.matters}, {"unless_mentioned", e.unsaid}};
+                }));
+  return output;
+}
+
 StudyOutput effects_one_by_one(const Inquiry& inquiry, NoOptions) {
-  if (inquiry.without_scene()) return in_words(list_of_effects());
+  if (inquiry.without_scene()) return all_effects();
   return output_of(study_effects(inquiry.scene, inquiry.simulation()));
 }
 

@@ -32,7 +32,7 @@ struct StudyOutput : Findings {
   std::string next = {};  // next step for the user when files are written: {scene}, {summary} stand for their names
   std::shared_ptr<const void> study = {};  // data of page and files, if owned here
   std::string aside = {};                  // said beside the results, no part of them
-  std::string words = {};                  // an answer in words alone: nothing else is shown or written
+  std::string words = {};                  // an answer in words: shown as it is, no files; programs get the summary
 
   std::string text(bool all_digits = false) const { return words.empty() ? terminal_text(*this, all_digits) : words; }
   std::string json() const { return json_text(summary_of(*this)); }

@@ -261,6 +261,7 @@ class Studies(unittest.TestCase):
         pair = kurbel.gears(teeth=[31, 30], module="3.5 mm", shift=0.291)
         self.assertEqual(pair.summary["pairs"][0]["wheels"][0]["teeth"], 31)
         self.assertIn("elasticity — ", kurbel.effects().text)
+        self.assertEqual(kurbel.effects().summary["effects"][0]["effect"], "elasticity")
         with self.assertRaisesRegex(ValueError, "modes needs a machine"):
             kurbel.study("modes")
 

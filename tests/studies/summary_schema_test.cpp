@@ -1,11 +1,15 @@
 // summary_schema_test.cpp — what every command reports to programs is what docs/summary.schema.json says, nothing more.
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <vector>
 
 #include "drivetrain/gears/bevel_worm.h"
+#include "engine/scene/effects.h"
 #include "studies/accuracy/accuracy.h"
 #include "studies/advise/advise.h"
 #include "studies/dictionary/dictionary.h"
@@ -23,7 +27,9 @@
 #include "studies/uncertainty/uncertainty.h"
 #include "tests/support/conclusions.h"
 #include "tests/support/files.h"
+#include "tests/support/program.h"
 #include "tests/support/scenes.h"
+#include "tests/support/thorough.h"
 
 namespace kurbel::summary_schema_test {
 namespace {
@@ -44,10 +50,23 @@ bool is_of_type(const Json& value, const std::string& type) {
   return type == "array" ? value.is_array() : value.is_object();
 }
 
+Json::json_pointer place_of(const Json& ref) { return Json::json_pointer(ref.get<std::string>().substr(1)); }
+
 // The part of JSON Schema that the file uses. Returns the first place that does not fit.
 std::string misfit(const Json& rule, const Json& value, const std::string& at) {
-  if (rule.contains("$ref"))
-    return misfit(schema().at(Json::json_pointer(rule["$ref"].get<std::string>().substr(1))), value, at);
+  for (const auto& [keyword, meaning] : rule.items())
+    if (static const std::set<std::string> known = {"$schema", "$defs", "title", "description", "$ref", "anyOf",
+                                                    "const", "enum", "type", "required", "properties",
+                                                    "additionalProperties", "items"};
+        !known.contains(keyword))
+      return at + ": the test does not know the keyword " + keyword;
+  if (rule.contains("$ref")) return misfit(schema().at(place_of(rule["$ref"])), value, at);
+  if (const Json any = rule.value("anyOf", Json::array()); !any.empty()) {
+    const auto fits = [&](const Json& one) { return misfit(one, value, at).empty(); };
+    if (std::none_of(any.begin(), any.end(), fits)) return at + " is none of those allowed";
+  }
+  if (const Json allowed = rule.value("enum", Json::array()); !allowed.empty())
+    if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) return at + " is not of " + allowed.dump();
   if (rule.contains("const") && value != rule["const"]) return at + " is not " + rule["const"].dump();
   if (rule.contains("type")) {
     const Json types = rule["type"].is_array() ? rule["type"] : Json::array({rule["type"]});
@@ -86,10 +105,17 @@ void expect_explained(const std::string& verb, const Findings& findings) {
   }
 }
 
+// What a program reads: it fits the command's own definition, and the file as a whole.
+void expect_fits(const std::string& verb, const std::string& text, const std::string& of = "") {
+  const Json value = Json::parse(text);
+  EXPECT_EQ(misfit(schema().at("$defs").at(verb), value, verb), "") << of;
+  EXPECT_EQ(misfit(schema(), value, verb), "") << of;
+}
+
 void expect_met(const std::string& verb, const Findings& findings) {
   expect_explained(verb, findings);
   test::expect_valid_conclusion(findings, verb);
-  EXPECT_EQ(misfit(schema().at("$defs").at(verb), Json::parse(json_text(summary_of(findings))), verb), "");
+  expect_fits(verb, json_text(summary_of(findings)));
 }
 template <class Study>
 void expect_reported(const std::string& verb, const Study& study) {
@@ -133,7 +159,7 @@ TEST(SummarySchema, HoldsForTheReportOfATrain) {
   const StudyOutput report =
       question_named("report").answer({.scene = scene, .text = scene.text, .file = scene.file, .settings = {}}, {});
   test::expect_valid_conclusion(report, "report");
-  EXPECT_EQ(misfit(schema().at("$defs").at("report"), Json::parse(report.json()), "report"), "");
+  expect_fits("report", report.json());
 }
 
 TEST(SummarySchema, HoldsForGears) {
@@ -186,8 +212,7 @@ TEST(SummarySchema, HoldsForSweepsAndTolerances) {
   const std::filesystem::path file = folder / "sweep.db";
   SweepStore(file, identity).write(rows);
   const SweepStudyResult sweep = study_of(SweepStore(file), {"peak_torque.c <= 30 N*m"});
-  EXPECT_EQ(misfit(schema().at("$defs").at("sweep"), Json::parse(json_text(summary_of(findings_of(sweep)))), "sweep"),
-            "");
+  expect_fits("sweep", json_text(summary_of(findings_of(sweep))));
 
   MachineQuestion question;
   question.text = test::scene_file("scenes/crank_press.toml").text;
@@ -195,9 +220,113 @@ TEST(SummarySchema, HoldsForSweepsAndTolerances) {
   question.settings = {"run.until=0.3 s", "flywheel.inertia={ value = \"420 kg*m2\", tolerance = \"5 %\" }"};
   const UncertaintyStudy uncertainty = study_uncertainty(
       question, {.figures = {"peak_torque"}, .limits = {"peak_torque.main_coupling <= 8 kN*m"}, .samples = 20});
-  EXPECT_EQ(misfit(schema().at("$defs").at("uncertainty"), Json::parse(json_text(summary_of(findings_of(uncertainty)))),
-                   "uncertainty"),
-            "");
+  expect_fits("uncertainty", json_text(summary_of(findings_of(uncertainty))));
+}
+
+// Answers of a command, as `--json` prints them.
+void expect_answer_fits(const std::string& verb, const std::string& file, const GivenOptions& given) {
+  const Scene scene = test::scene_file(file);
+  const StudyOutput output =
+      question_named(verb).answer({.scene = scene, .text = scene.text, .file = scene.file, .page = false}, given);
+  expect_fits(verb, output.json(), file);
+}
+
+TEST(SummarySchema, HoldsForMeasuredRecords) {
+  const test::ScratchFolder folder;
+  const std::string file = (folder / "test.csv").string();
+  std::ofstream(file) << "time [s],T1 [N*m]\n0,0\n0.1,120\n0.2,80\n0.3,10\n0.4,20\n";
+  const GivenOptions laid_over = {{"measured", file}, {"map", "T1=torque.main_coupling"}, {"offset", "fit"}};
+  GivenOptions of_run = laid_over;
+  of_run.insert(of_run.end(), {{"until", "0.5 s"}, {"no_error", "true"}, {"no_trials", "true"}});
+  expect_answer_fits("run", "scenes/crank_press.toml", of_run);
+  expect_answer_fits("steady", "scenes/crank_press.toml", laid_over);
+}
+
+TEST(SummarySchema, HoldsForFits) {
+  const std::string tasks = test::source_path("docs/tasks/");
+  GivenOptions given = {{"measured", tasks + "fit_set_1500.csv"},
+                        {"map", "c*=speed.engine"},
+                        {"hold", "mean speed by load.torque"},
+                        {"free", "rotor.inertia=0.05..0.8 kg*m2"},
+                        {"free", "engine.crank_inertia=0..0.05 kg*m2"}};
+  expect_answer_fits("fit", "docs/tasks/fit_set.toml", given);  // without orders: by frequency
+  given.insert(given.end(), {{"orders", "0.5,1.5,2.5"},
+                             {"predict", tasks + "fit_set.toml at 1200 rpm against " + tasks + "fit_set_1200.csv"}});
+  expect_answer_fits("fit", "docs/tasks/fit_set.toml", given);
+}
+
+TEST(SummarySchema, HoldsForExports) {
+  expect_answer_fits("export", "docs/tasks/hoist_control.toml",
+                     {{"kind", "cs"}, {"input", "motor.command"}, {"parameter", "drum.inertia"}});
+}
+
+// Without a scene: the list, for people in words, for programs as data.
+TEST(SummarySchema, HoldsForTheListOfEffects) {
+  const test::Said said = test::said_by("'" KURBEL_EXECUTABLE "' effects --json");
+  EXPECT_EQ(said.code, 0);
+  expect_fits("effect_list", said.text);
+  const Json effects = Json::parse(said.text).at("effects");
+  EXPECT_EQ(effects[0]["effect"], "elasticity");
+  EXPECT_EQ(effects.size(), effect_flags().size() + 1);
+}
+
+// Parts that few machines have: films of oil, cranks that rock. Thoroughly: all scenes.
+TEST(SummarySchema, HoldsForTheScenesOfTheFolder) {
+  std::vector<std::string> files = {"scenes/compressor.toml", "scenes/pendulum_balance.toml", "scenes/walking_leg.toml",
+                                    "scenes/worn_crank_pin.toml", "scenes/wedge_lift.toml"};
+  if (test::thorough()) {
+    files.clear();
+    for (const auto& entry : std::filesystem::directory_iterator(test::source_path("scenes")))
+      if (entry.path().extension() == ".toml") files.push_back("scenes/" + entry.path().filename().string());
+  }
+  const std::vector<std::pair<std::string, GivenOptions>> asked = {
+      {"forces", {{"no_run", "true"}}},
+      {"reduce", {}},
+      {"gears", {}},
+      {"size", {{"delta", "0.02"}, {"no_run", "true"}}},
+      {"modes", {{"spot_checks", "0"}, {"no_misfires", "true"}, {"cases", "none"}}},
+      {"run", {{"no_error", "true"}, {"no_trials", "true"}}}};
+  std::size_t answers = 0;
+  for (const std::string& file : files)
+    for (const auto& [verb, given] : asked) {
+      if (verb == "run" && !test::thorough()) continue;
+      try {
+        expect_answer_fits(verb, file, given);
+        ++answers;
+      } catch (const std::invalid_argument&) {  // the machine has nothing of that kind
+      }
+    }
+  EXPECT_GT(answers, 2 * files.size());
+}
+
+// What the schema itself refers to is there, once.
+TEST(SummarySchema, RefersToWhatItDefines) {
+  std::vector<std::set<std::string>> open;
+  const auto once = [&](int, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::object_start) open.emplace_back();
+    if (event == Json::parse_event_t::object_end) open.pop_back();
+    if (event == Json::parse_event_t::key) {
+      EXPECT_TRUE(open.back().insert(parsed.get<std::string>()).second) << parsed << " stands twice in an object";
+    }
+    return true;
+  };
+  const Json read = Json::parse(std::ifstream(KURBEL_SOURCE_DIR "/docs/summary.schema.json"), once);
+  std::set<std::string> named;
+  const auto follow = [&](const auto& self, const Json& rule) -> void {
+    if (rule.is_object() && rule.contains("$ref") && rule["$ref"].is_string()) {
+      const Json::json_pointer place = place_of(rule["$ref"]);
+      EXPECT_TRUE(read.contains(place)) << place;
+      named.insert(place.to_string().substr(0, place.to_string().find('/', 7)));
+    }
+    if (rule.is_structured())
+      for (const Json& part : rule) self(self, part);
+  };
+  follow(follow, read);
+  for (const auto& [name, rule] : read.at("$defs").items()) EXPECT_TRUE(named.contains("/$defs/" + name)) << name;
+  for (const Question& question : questions())
+    if (question.of_scene) {
+      EXPECT_TRUE(named.contains("/$defs/" + question.name)) << question.name;
+    }
 }
 
 }  // namespace
