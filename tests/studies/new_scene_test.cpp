@@ -118,6 +118,21 @@ std::string made_part(const std::string& file) {
   return text.substr(begin, text.rfind('\n', end) + 1 - begin);
 }
 
+// What all commands on a scene take is described by hand. `effects` takes nothing else.
+TEST_F(NewScene, OptionsOfAllCommandsAreInManPageAndTable) {
+  const std::string manual = std::regex_replace(text_of(test::source_path("docs/kurbel.1")), std::regex(R"(\\-)"), "-");
+  const std::string table = text_of(test::source_path("docs/commands.md"));
+  std::istringstream shared(kurbel("commands effects").text);
+  int count = 0;
+  for (std::string option; std::getline(shared, option); ++count) {
+    EXPECT_TRUE(std::regex_search(manual, std::regex("\n\\.BI? " + option + "( |\n)"))) << "kurbel.1 lacks " << option;
+    if (option == "--help") continue;
+    EXPECT_TRUE(std::regex_search(table, std::regex("\n\\|[^|]*`" + option + "[ `]")))
+        << "commands.md lacks " << option;
+  }
+  EXPECT_GE(count, 14);
+}
+
 // A command says itself in one place: manual page, docs/commands.md and completion follow. README names each.
 TEST_F(NewScene, ManPageTableAndCompletionAreWhatTheCommandsSayOfThemselves) {
   EXPECT_EQ(made_part("docs/kurbel.1"), kurbel("commands --manual").text) << "renew it: scripts/renew-docs";
