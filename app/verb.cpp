@@ -120,7 +120,7 @@ std::string questions_as_stubs() {
       const bool list =
           option.form == OptionForm::several || option.text.name == "effects" || option.text.name == "against";
       const std::string next = fmt::format("{}: {} = ...", option.text.name,
-                                           option.form == OptionForm::flag ? "bool"
+                                           option.form == OptionForm::flag ? "_Flag"
                                            : list                          ? "_Values"
                                                                            : "_Value");
       if (line.size() + next.size() + 3 > width) {

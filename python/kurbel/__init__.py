@@ -12,16 +12,16 @@ every fault. A run that cannot go on is no exception: `complete` is
 False, `diagnosis` says why.
 """
 
-import inspect
-import json
-from collections.abc import Mapping
+import inspect as _inspect
+import json as _json
+import os as _os
 
 from ._kurbel import (Event, Figure, Machine, Motion, SceneError, State, __version__, example_scenes, explain,
                       explained_figures, keys, kinds, option_names, study_names)
 from ._results import Run, Study, Trajectory
 from ._sweep import Sweep, merge, rows_in, sweep
-from ._text import assigned, by_commas, choices_of, machine
-from . import _kurbel
+from ._text import machine
+from . import _kurbel, _text
 
 __all__ = ["Event", "Figure", "Machine", "Motion", "Run", "SceneError", "State", "Study", "Sweep", "Trajectory",
            "check", "diff", "example_scenes", "explain", "explained_figures", "figures", "keys", "kinds", "machine",
@@ -45,33 +45,30 @@ def run(scene, *, set=None, effects=None, method=None, accuracy=None, until=None
               offset: {"T1": "5 N*m"}, {"T1": "fit"} or "fit"; the difference is given as figures
     from_state  of Motion.state: goes on from there
     """
-    choices = choices_of(effects=effects, method=method, accuracy=accuracy, until=until, no_error=no_error,
-                         page=page)
-    return Run(_kurbel.run(machine(scene, set=set), no_trials=no_trials, measured=str(measured), map=assigned(map),
-                           shift=str(shift), offset=assigned(offset), from_state=from_state.text if from_state else "",
-                           **choices))
+    choices = _text.choices_of(effects=effects, method=method, accuracy=accuracy, until=until, no_error=no_error,
+                               page=page, no_trials=no_trials)
+    if not isinstance(measured, (str, _os.PathLike)):
+        raise _text.wrong("measured", measured, "the path of a file")
+    if from_state is not None and not isinstance(from_state, State):
+        raise _text.wrong("from_state", from_state, "a State, which Motion.state hands out")
+    return Run(_kurbel.run(machine(scene, set=set), measured=_os.fspath(measured),
+                           map=_text.assigned("map", map, '{"T1": "torque.main_coupling"}'),
+                           shift=_text.text_given("shift", shift, '"0.2 s" or "fit"'),
+                           offset=_text.assigned("offset", offset, '{"T1": "5 N*m"}'),
+                           from_state=from_state.text if from_state else "", **choices))
 
 
 def motion(scene, *, set=None, effects="", tolerance=1e-9):
     """A machine to be stepped: go_to(t), motion["torque.main_coupling"], state, restore(state). For one thread at a time:
     a call while another thread is in one raises RuntimeError."""
-    return Motion(machine(scene, set=set), **choices_of(effects=effects, tolerance=tolerance))
-
-
-def _options(given):
-    """Options as the module takes them: a flag as true, what is a list once for each, a mapping as NAME=VALUE."""
-    said = []
-    for key, value in given.items():
-        value = by_commas(value) if key in ("effects", "against") else value
-        all_of_it = assigned(value) if isinstance(value, (Mapping, list, tuple)) else [value]
-        said += [(key, ("true" if one else "false") if isinstance(one, bool) else str(one)) for one in all_of_it]
-    return said
+    return Motion(machine(scene, set=set), **_text.choices_of(effects=effects, tolerance=tolerance))
 
 
 def study(name, /, scene=None, *, set=None, **options):
     """One of study_names() put to a scene, or without one: a pair of gears alone, the list of effects; options as the
     command has them: mid_speed="60 rpm"; those that may be given again there as a list."""
-    return Study(_kurbel.study(name, None if scene is None else machine(scene, set=set), _options(options)))
+    return Study(_kurbel.study(_text.text_given("name", name, '"modes"'),
+                               None if scene is None else machine(scene, set=set), _text.options_of(options)))
 
 
 def diff(scene, other, *, set=None, other_set=None, **options):
@@ -82,8 +79,8 @@ def diff(scene, other, *, set=None, other_set=None, **options):
     no_error  skip the runs that measure errors
     delta     demanded, of size
     """
-    other_set = {**(set or {}), **(other_set or {})}
-    return Study(_kurbel.diff(machine(scene, set=set), machine(other, set=other_set), _options(options)))
+    of_other = dict(_text.settings_of(set) + _text.settings_of(other_set, "other_set"))
+    return Study(_kurbel.diff(machine(scene, set=set), machine(other, set=of_other), _text.options_of(options)))
 
 
 def check(scene, *, set=None):
@@ -110,7 +107,7 @@ def new(name, file=None):
 
 def schema():
     """JSON Schema of a scene (draft 2020-12) as a dict."""
-    return json.loads(_kurbel.schema_text())
+    return _json.loads(_kurbel.schema_text())
 
 
 def _verb(name):
@@ -119,11 +116,11 @@ def _verb(name):
     ask.__name__ = ask.__qualname__ = name
     ask.__doc__ = (f"kurbel {name} put to a scene. Options: {', '.join(option_names(name)) or 'none'}; "
                    f"what they are: kurbel {name} --help.")
-    keyword = inspect.Parameter.KEYWORD_ONLY
-    default = inspect.Parameter.empty if _kurbel.needs_machine(name) else None
-    ask.__signature__ = inspect.Signature(
-        [inspect.Parameter("scene", inspect.Parameter.POSITIONAL_OR_KEYWORD, default=default)] +
-        [inspect.Parameter(option, keyword, default=None) for option in ["set", *option_names(name)]])
+    keyword = _inspect.Parameter.KEYWORD_ONLY
+    default = _inspect.Parameter.empty if _kurbel.needs_machine(name) else None
+    ask.__signature__ = _inspect.Signature(
+        [_inspect.Parameter("scene", _inspect.Parameter.POSITIONAL_OR_KEYWORD, default=default)] +
+        [_inspect.Parameter(option, keyword, default=None) for option in ["set", *option_names(name)]])
     return ask
 
 

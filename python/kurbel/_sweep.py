@@ -4,7 +4,7 @@ import os
 
 from . import _kurbel
 from ._results import Figures, Study
-from ._text import choices_of, machine
+from ._text import choices_of, machine, names_given, text_given, whole_given, wrong
 
 
 def _row(text, file, settings, figures, of, choices):
@@ -20,8 +20,26 @@ def _row(text, file, settings, figures, of, choices):
     except (ValueError, RuntimeError) as why:
         return {}, str(why)
     wanted = {name: (f.value, f.error, f.unit) for name, f in found.items()
-              if not figures or name in figures or name.split(".")[0] in figures}
+              if not figures or any(_is_asked(name, figure) for figure in figures)}
     return wanted, failed
+
+
+def _is_asked(name, figure):
+    return figure in (name, name.split(".")[0])
+
+
+def _refuse_unknown(base, figures, of, choices):
+    """Raises ValueError for a figure that no row has: neither those that the machine's runs may yield, nor a row as the
+    scene is, have it."""
+    def unknown(known):
+        return [figure for figure in figures if not any(_is_asked(name, figure) for name in known)]
+    known = [name for name, _ in base.figures()] if of == "run" else []
+    if unknown(known):
+        known += [name for name in _row(base.text, os.path.abspath(base.file), [], (), of, choices)[0]
+                  if name not in known]
+    if known and (missing := unknown(known)):
+        more = f" … and {len(known) - 30} more" if len(known) > 30 else ""
+        raise ValueError(f"figures={missing[0]!r}: no such figure; there are: {', '.join(map(repr, known[:30]))}{more}")
 
 
 def _row_of(asked):
@@ -74,7 +92,7 @@ class Sweep:
         machines. limit: "delta.press <= 0.05", or a list of such."""
         if self.file is None:
             raise ValueError("these rows are kept in no file, which a report is made of; give sweep() a file: into")
-        return Study(_kurbel.sweep_report(self.file, [limit] if isinstance(limit, str) else list(limit)))
+        return Study(_kurbel.sweep_report(self.file, names_given("limit", limit, '"delta.press <= 0.05"')))
 
     def to_pandas(self):
         """A DataFrame, a row a variant: what is varied, in the units of `vary`, and figures in SI."""
@@ -84,6 +102,9 @@ class Sweep:
         for name in sorted({name for row in self.figures for name in row}):
             frame[name] = self[name]
         return frame
+
+
+_CHOICES = {"accuracy", "effects", "method", "no_error", "until"}
 
 
 def sweep(scene, vary, *, design="grid", seed=1, figures=(), of="run", set=None, executor=None, into=None, jobs=0,
@@ -101,8 +122,15 @@ def sweep(scene, vary, *, design="grid", seed=1, figures=(), of="run", set=None,
     choices   of run, as of run(): no_error, effects, method, accuracy, until; of others no_error
     """
     base = machine(scene, set=set)
-    vary = [vary] if isinstance(vary, str) else list(vary)
-    figures, choices = (figures,) if isinstance(figures, str) else tuple(figures), choices_of(**choices)
+    vary = names_given("vary", vary, '"flywheel.inertia=200,400 kg*m2"')
+    figures = tuple(names_given("figures", figures, '"delta" or ["delta.press", "peak_torque"]'))
+    design, of = text_given("design", design, '"grid:21x3"'), text_given("of", of, '"run"')
+    seed, jobs = whole_given("seed", seed), whole_given("jobs", jobs)
+    if executor is not None and not (hasattr(executor, "submit") or hasattr(executor, "map")):
+        raise wrong("executor", executor, "what has submit() or map(), such as those of concurrent.futures")
+    if unknown := sorted(choices.keys() - _CHOICES):
+        raise TypeError(f"sweep takes no {unknown[0]!r}; choices of a run are {', '.join(sorted(_CHOICES))}")
+    choices = choices_of(**choices)
     if of != "run" and choices.keys() - {"no_error"}:
         raise TypeError(f"of={of!r} takes no {', '.join(sorted(choices.keys() - {'no_error'}))}; set them in the scene")
     if into is not None:
@@ -116,12 +144,15 @@ def sweep(scene, vary, *, design="grid", seed=1, figures=(), of="run", set=None,
     # Data files are found from wherever a row is computed.
     text, file = base.text, os.path.abspath(base.file)
     _kurbel.Machine.from_text(text, base.file, settings[0])  # faults are reported before anything is computed
+    _refuse_unknown(base, figures, of, choices)
     return Sweep(vary, rows, _computed(executor, [(text, file, s, figures, of, choices) for s in settings]))
 
 
 def merge(files, into):
     """Puts shards of one sweep, which `kurbel sweep --shard` filled, into one file; how many rows it has.
     Options: files, into."""
+    if isinstance(files, (str, os.PathLike)) or not all(isinstance(file, (str, os.PathLike)) for file in files):
+        raise wrong("files", files, "a list of files")
     return _kurbel.merge([os.fspath(file) for file in files], os.fspath(into))
 
 

@@ -210,6 +210,9 @@ class Words(unittest.TestCase):
         with self.assertRaises(kurbel.SceneError):
             kurbel.check(TWO_MASSES, set={"fan.inertia": "-1 kg*m2"})
 
+    def test_the_module_shows_its_own_names_alone(self):
+        self.assertEqual([name for name in dir(kurbel) if not name.startswith("_")], sorted(kurbel.__all__))
+
     def test_a_scene_to_start_from(self):
         self.assertIn("press", kurbel.example_scenes())
         with tempfile.TemporaryDirectory() as folder:
