@@ -84,59 +84,64 @@ Motion::~Motion() = default;
 Motion::Motion(Motion&&) noexcept = default;
 Motion& Motion::operator=(Motion&&) noexcept = default;
 
-double Motion::time() const { return parts_->here.state.t; }
+MotionParts& Motion::parts() const {
+  if (!parts_) throw std::logic_error("this Motion was moved from; assign another one to it first");
+  return *parts_;
+}
+
+double Motion::time() const { return parts().here.state.t; }
 
 void Motion::go_to(double time, const Watcher& watcher) {
   if (!(time >= this->time()))
     throw std::invalid_argument(
         fmt::format("go_to({:g}): the motion is at {:g} s; restore an earlier state to go back", time, this->time()));
-  if (time > this->time()) parts_->go_to(time, watcher);
+  if (time > this->time()) parts().go_to(time, watcher);
 }
 
 SavedState Motion::state() const {
   return SavedState(
-      std::make_shared<const SavedParts>(SavedParts{parts_->here, text_of(parts_->here, parts_->equations)}));
+      std::make_shared<const SavedParts>(SavedParts{parts().here, text_of(parts().here, parts().equations)}));
 }
 
 void Motion::restore(const SavedState& state) {
   // Through its text, which is checked against this machine.
-  parts_->here = checkpoint_from(state.parts().text, parts_->equations);
-  parts_->stand();
+  parts().here = checkpoint_from(state.parts().text, parts().equations);
+  parts().stand();
 }
 
 SavedState Motion::state_from(const std::string& text) const {
-  return SavedState(std::make_shared<const SavedParts>(SavedParts{checkpoint_from(text, parts_->equations), text}));
+  return SavedState(std::make_shared<const SavedParts>(SavedParts{checkpoint_from(text, parts().equations), text}));
 }
 
 std::vector<std::string> Motion::names() const {
   std::vector<std::string> names;
-  for (const Channel& channel : parts_->channels) names.push_back(channel.name.text);
+  for (const Channel& channel : parts().channels) names.push_back(channel.name.text);
   return names;
 }
 
 std::vector<std::string> Motion::units() const {
   std::vector<std::string> units;
-  for (const Channel& channel : parts_->channels) units.push_back(channel.unit);
+  for (const Channel& channel : parts().channels) units.push_back(channel.unit);
   return units;
 }
 
 double Motion::operator[](const std::string& name) const {
-  const auto found = std::find_if(parts_->channels.begin(), parts_->channels.end(),
+  const auto found = std::find_if(parts().channels.begin(), parts().channels.end(),
                                   [&](const Channel& channel) { return channel.name.text == name; });
-  if (found == parts_->channels.end()) refuse_name("the machine", name, names());
-  return found->value(parts_->now());
+  if (found == parts().channels.end()) refuse_name("the machine", name, names());
+  return found->value(parts().now());
 }
 
 std::vector<double> Motion::values() const {
-  const Snapshot& now = parts_->now();
+  const Snapshot& now = parts().now();
   std::vector<double> values;
-  for (const Channel& channel : parts_->channels) values.push_back(channel.value(now));
+  for (const Channel& channel : parts().channels) values.push_back(channel.value(now));
   return values;
 }
 
 std::vector<std::string> Motion::state_names() const {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < parts_->equations.size(); ++i) names.push_back(parts_->equations.state_name(i));
+  for (std::size_t i = 0; i < parts().equations.size(); ++i) names.push_back(parts().equations.state_name(i));
   return names;
 }
 

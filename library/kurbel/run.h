@@ -46,7 +46,10 @@ struct RunEvent {
 class Run {
  public:
   explicit Run(std::shared_ptr<const RunParts> parts) : parts_(std::move(parts)) {}  // for kurbel itself
-  bool complete() const;                                                             // it reached its end …
+  // Moving copies, too: what was moved from is still that run.
+  Run(const Run&) = default;
+  Run& operator=(const Run&) = default;
+  bool complete() const;                 // it reached its end …
   std::string diagnosis() const;         // … or when, where and why not, and what to try
   const FigureValues& figures() const;   // in SI, each with its measured error; not reliable if the run is incomplete
   const Trajectory& trajectory() const;  // empty for a multibody run

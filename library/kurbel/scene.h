@@ -45,6 +45,10 @@ class Machine {
   // folder. Throws BadScene with all faults at once.
   static Machine from_text(const std::string& text, const std::string& file = "text", const Settings& settings = {});
 
+  // Moving copies, too: what was moved from is still that machine.
+  Machine(const Machine&) = default;
+  Machine& operator=(const Machine&) = default;
+
   // The same machine with further settings; the last one for a path holds. Throws BadScene.
   Machine with(const Settings& settings) const;
 

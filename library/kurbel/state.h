@@ -24,7 +24,10 @@ struct MotionParts;
 class SavedState {
  public:
   explicit SavedState(std::shared_ptr<const SavedParts> parts) : parts_(std::move(parts)) {}  // for kurbel itself
-  double time() const;                                                                        // [s]
+  // Moving copies, too: what was moved from is still that state.
+  SavedState(const SavedState&) = default;
+  SavedState& operator=(const SavedState&) = default;
+  double time() const;  // [s]
   // In the order of Motion::state_names(), in SI: angles and twists [rad], speeds [rad/s], internal states of elements.
   const std::vector<double>& y() const;
   // JSON, exact to the last bit; Motion::state_from() reads it.
@@ -46,7 +49,7 @@ class Motion {
   // started, std::invalid_argument for another tolerance and for a multibody scene (run.model must be "reduced").
   explicit Motion(const Machine& machine, const std::string& effects = {}, double tolerance = 1e-9);
   ~Motion();
-  Motion(Motion&&) noexcept;             // a moved-from object can only be assigned to or destroyed
+  Motion(Motion&&) noexcept;             // what was moved from throws std::logic_error until it is assigned to
   Motion& operator=(Motion&&) noexcept;  // likewise
 
   double time() const;  // current time [s]
@@ -76,6 +79,7 @@ class Motion {
   std::vector<std::string> state_names() const;
 
  private:
+  MotionParts& parts() const;
   std::unique_ptr<MotionParts> parts_;
 };
 

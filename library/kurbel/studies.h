@@ -25,8 +25,11 @@ struct Watcher {
 class Study {
  public:
   explicit Study(std::shared_ptr<const StudyParts> parts) : parts_(std::move(parts)) {}  // for kurbel itself
-  std::string conclusion() const;                                                        // one line
-  std::string text() const;                                                              // complete, for a terminal
+  // Moving copies, too: what was moved from is still that result.
+  Study(const Study&) = default;
+  Study& operator=(const Study&) = default;
+  std::string conclusion() const;   // one line
+  std::string text() const;         // complete, for a terminal
   std::string json() const;         // the same for programs: summary.json, docs/summary.schema.json
   std::string html() const;         // the page, self-contained
   bool complete() const;            // it reached its end …
