@@ -257,8 +257,13 @@ Findings findings_of(const AccuracyStudy& study) {
     f.say(terminal, std::move(words));
   };
   f.record("fingerprint", fingerprint(study.scene_text));
-  say({.lines = study.findings, .indent = "  ", .key = "findings"});
-  say({.lines = study.answers, .indent = "  ", .key = "answers"});
+  for (const auto& [list, key] : {std::pair(&study.findings, "findings"), std::pair(&study.answers, "answers")}) {
+    std::vector<std::string> further;  // the conclusion has been said
+    for (const std::string& sentence : *list)
+      if (sentence != conclusion_of(study)) further.push_back(sentence);
+    say({.lines = std::move(further), .indent = "  "});
+    f.record(key, *list);
+  }
   f.record("key_figure", study.figures.empty() ? Value() : Value(study.figures[study.key].name));
   if (measured) {
     f.say(terminal, rung_table(study));

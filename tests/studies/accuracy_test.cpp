@@ -133,6 +133,15 @@ TEST(Accuracy, AnswersHoldAndTheModelsErrorIsReported) {
   const StudyOutput output = output_of(study);
   const auto json = nlohmann::json::parse(output.json());
   EXPECT_EQ(json["settings"].size(), study.settings.size());
+  // Programs get every answer; on a terminal the conclusion is not said again.
+  EXPECT_EQ(json["answers"].size(), study.answers.size());
+  const std::string text = output.text();
+  for (const std::string& sentence : study.answers) {
+    const std::string whole = readable(sentence), begin = whole.substr(0, whole.find(':'));
+    const std::size_t said = text.find(begin);
+    EXPECT_NE(said, std::string::npos) << begin;
+    EXPECT_EQ(text.find(begin, said + 1), std::string::npos) << begin << " is said twice";
+  }
   EXPECT_EQ(json["models"].size(), study.levels.size());
   const std::string page = html_of(output.report());
   EXPECT_NE(page.find("Total error and processor time"), std::string::npos);
