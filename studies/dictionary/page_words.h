@@ -160,7 +160,10 @@ inline constexpr PageWord of_pages[] = {
      "parameter λ"},
     {"absolute pressure; rocker speed", "run, compare", "pressure in a cylinder; speed of a rocking output"},
     // size
-    {"by theory 3.1; against exact; flywheel sized by; cycles; punch-press form; motor's slope counted; neglecting "
+    {"I_drive − 1.1 I_motor − I_gearbox", "size",
+     "the flywheel by the customary formula, which allows a tenth of the motor's inertia for couplings and omits the "
+     "other parts (theory 3.1)"},
+    {"against exact; flywheel sized by; cycles; punch-press form; motor's slope counted; neglecting "
      "I_em; Mertsalov; Wittenbauer; Wittenbauer (exact); rigid, work equation; sized, *; scene as it is, *",
      "size",
      "methods of sizing (theory 3), their deviation from Wittenbauer's, and the machine with the flywheel that they "

@@ -51,7 +51,7 @@ Rows methods_table(const Sizing& s) {
                        [](const SizeMethod& m, int digits) {
                          return m.flywheel.value > 0 ? figure_text(m.flywheel, digits) : FigureText{"none", ""};
                        })
-      .only_for_people("by theory 3.1 [kg·m²]",
+      .only_for_people("I_drive − 1.1 I_motor − I_gearbox [kg·m²]",
                        [](const SizeMethod& m) {
                          return m.flywheel_by_parts > 0 ? ended_at_error(&SizeMethod::flywheel_by_parts)(m) : "none";
                        })
