@@ -47,7 +47,7 @@ class TimeSeries {
   TimeSeries() = default;
   // Moving copies, too: what was moved from is still that series.
   TimeSeries(const TimeSeries&) = default;
-  TimeSeries& operator=(const TimeSeries&) = default;
+  TimeSeries& operator=(const TimeSeries&) = default;  // likewise
   // Refers to memory owned by `kept`.
   TimeSeries(std::shared_ptr<const void> kept, const double* data, std::size_t size, std::size_t stride)
       : kept_(std::move(kept)), data_(data), size_(size), stride_(stride) {}
@@ -70,7 +70,7 @@ class Trajectory {
   Trajectory() = default;
   // Moving copies, too: what was moved from is still that trajectory.
   Trajectory(const Trajectory&) = default;
-  Trajectory& operator=(const Trajectory&) = default;
+  Trajectory& operator=(const Trajectory&) = default;  // likewise
   // Refers to a recorder's memory: one row of all names at each time.
   Trajectory(std::shared_ptr<const void> kept, const std::vector<double>* time, const std::vector<double>* values,
              std::vector<std::string> names, std::vector<std::string> units)

@@ -48,7 +48,7 @@ class Run {
   explicit Run(std::shared_ptr<const RunParts> parts) : parts_(std::move(parts)) {}  // for kurbel itself
   // Moving copies, too: what was moved from is still that run.
   Run(const Run&) = default;
-  Run& operator=(const Run&) = default;
+  Run& operator=(const Run&) = default;  // likewise
   bool complete() const;                 // it reached its end …
   std::string diagnosis() const;         // … or when, where and why not, and what to try
   const FigureValues& figures() const;   // in SI, each with its measured error; not reliable if the run is incomplete

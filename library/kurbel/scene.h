@@ -47,7 +47,7 @@ class Machine {
 
   // Moving copies, too: what was moved from is still that machine.
   Machine(const Machine&) = default;
-  Machine& operator=(const Machine&) = default;
+  Machine& operator=(const Machine&) = default;  // likewise
 
   // The same machine with further settings; the last one for a path holds. Throws BadScene.
   Machine with(const Settings& settings) const;

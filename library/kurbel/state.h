@@ -26,8 +26,8 @@ class SavedState {
   explicit SavedState(std::shared_ptr<const SavedParts> parts) : parts_(std::move(parts)) {}  // for kurbel itself
   // Moving copies, too: what was moved from is still that state.
   SavedState(const SavedState&) = default;
-  SavedState& operator=(const SavedState&) = default;
-  double time() const;  // [s]
+  SavedState& operator=(const SavedState&) = default;  // likewise
+  double time() const;                                 // [s]
   // In the order of Motion::state_names(), in SI: angles and twists [rad], speeds [rad/s], internal states of elements.
   const std::vector<double>& y() const;
   // JSON, exact to the last bit; Motion::state_from() reads it.

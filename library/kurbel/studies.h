@@ -27,14 +27,14 @@ class Study {
   explicit Study(std::shared_ptr<const StudyParts> parts) : parts_(std::move(parts)) {}  // for kurbel itself
   // Moving copies, too: what was moved from is still that result.
   Study(const Study&) = default;
-  Study& operator=(const Study&) = default;
-  std::string conclusion() const;   // one line
-  std::string text() const;         // complete, for a terminal
-  std::string json() const;         // the same for programs: summary.json, docs/summary.schema.json
-  std::string html() const;         // the page, self-contained
-  bool complete() const;            // it reached its end …
-  std::string diagnosis() const;    // … or why not
-  std::string unconfirmed() const;  // why the requested accuracy is not confirmed; empty: it is
+  Study& operator=(const Study&) = default;  // likewise
+  std::string conclusion() const;            // one line
+  std::string text() const;                  // complete, for a terminal
+  std::string json() const;                  // the same for programs: summary.json, docs/summary.schema.json
+  std::string html() const;                  // the page, self-contained
+  bool complete() const;                     // it reached its end …
+  std::string diagnosis() const;             // … or why not
+  std::string unconfirmed() const;           // why the requested accuracy is not confirmed; empty: it is
   // All figures in the summary, in order; if there are several models, `of` names the model.
   std::vector<FigureValue> figures() const;
   // CSV files by name, and a printable sheet if one was requested ("sheet.html").
