@@ -15,7 +15,6 @@
 #include "engine/orbit/settling.h"
 #include "engine/return_map/family.h"
 #include "engine/run/recorders.h"
-#include "engine/run/speed_history.h"
 
 namespace kurbel {
 namespace {
@@ -39,7 +38,7 @@ class Search {
         last_motion_(m_) {}
 
   // A clocked sequence takes longer than its clock, so that every repetition begins late; nothing is found.
-  bool begins_late() const { return late_periods_ >= most_late_periods; }
+  bool begins_late() const { return late_periods_ >= 8; }
 
   Orbit run() {
     state_.t = 0;
@@ -72,15 +71,15 @@ class Search {
   std::string link() const { return m_.node_label(m_.reduction_node); }
 
   bool is_settled() const {
-    return m_.scene.sequence.repeat ||
-           (!waits_for_angle(m_, state_.modes) && state_.t >= switched_until(m_, period_, state_));
+    return (m_.scene.sequence.repeat || !waits_for_angle(m_, state_.modes)) &&
+           state_.t >= switched_until(m_, period_, state_);
   }
   // More for what changes slowly: a shaft that drag brings to the speed of another one takes its time.
   int most_periods() const {
     constexpr int times = 4;
     return options_.most_periods * (slow_ && options_.most_periods >= OrbitOptions{}.most_periods ? times : 1);
   }
-  bool has_own_period() const { return kurbel::has_own_period(m_, period_); }
+  bool has_own_period() const { return kurbel::has_own_period(m_, period_, options_.clocked); }
   Pace pace() { return pace_of(equations_, state_); }
 
   // --- one period ---
@@ -102,7 +101,7 @@ class Search {
   // Time limit for a period of the link at this speed [s].
   double patience(double omega) const { return 3 * round_angle() / std::max(std::abs(omega), 0.05 * m_.speed_scale); }
 
-  // Cycles of an incomplete period, by the rotation of the link, or by time if only time defines a cycle.
+  // Of an incomplete period, by the rotation of the link, or by time if only time defines a cycle.
   double cycles_of(double time, double begin) const {
     if (period_.by_time) return time / period_.time;
     return std::abs(equations_.angle_with_turns(at(m_.reduction_angle), state_.y) - begin) / period_.angle;
@@ -139,21 +138,15 @@ class Search {
     if (now.speed > far_beyond) return run_away(now.speed);
     aligned_ = aligned_ || by_time;
     events_.add(outcome.events);
-    if (is_late(outcome.events)) return;
+    if (is_settled() && is_late(outcome.events)) return;
     if (has_own_period() && is_settled() && find_own_period()) return;
     if (!round) return wait(now, speeds);
     patience_factor_ = 1;
-    if (is_settled() && !aligning && !m_.scene.sequence.repeats_freely()) look(before, now);
+    if (is_settled() && !aligning && !repeats_freely(m_.scene.sequence, options_.clocked)) look(before, now);
   }
 
-  // A repetition of a clocked sequence began late in the last period, or is late at its end.
   bool is_late(const EventLog& events) {
-    const double clock = least_repetition(m_.scene.sequence) * (1 + 1e-9);
-    if (clock == 0) return false;
-    const bool late = std::any_of(events.begin(), events.end(), [&](const Event& e) {
-      return e.kind == EventKind::note && e.component == "sequence" && e.value > clock;
-    });
-    late_periods_ = late || state_.t - state_.modes.cycle_began > clock ? late_periods_ + 1 : 0;
+    late_periods_ = options_.clocked && begins_late_in(events, state_, m_.scene.sequence) ? late_periods_ + 1 : 0;
     return late_periods_ > 0;
   }
 
@@ -161,25 +154,15 @@ class Search {
   void wait(const Pace& now, const LinkSpeeds& speeds) {
     patience_factor_ = std::min(2 * patience_factor_, 64.0);
     if (!is_settled() && state_.t < switched_until(m_, period_, state_)) return;
-    if (is_settled() && !m_.scene.sequence.repeats_freely() && swings_.as_before(speeds)) return vibrate();
+    if (is_settled() && !repeats_freely(m_.scene.sequence, options_.clocked) && swings_.as_before(speeds))
+      return vibrate();
     if (now.rate > still || period_.by_time) return;
-    if (now.speed <= still) return end(Orbit::Kind::at_rest, at_rest());
+    if (now.speed <= still)
+      return end(Orbit::Kind::at_rest, with_holders(rest_in_words(last_motion_, events_.last, m_)));
     const double omega = std::abs(link_speed());
     if (omega > still * m_.speed_scale) return;  // it creeps
     end(Orbit::Kind::equilibrium,
         with_holders(fmt::format("\"{}\" stands while other shafts turn, and no speed changes any more", link())));
-  }
-  // The machine comes to rest by an event, or approaches the rest; as in the periods of a run.
-  std::string at_rest() {
-    const auto [hundredth, thousandth, motion] = last_motion_.times();
-    if (motion == 0) return with_holders("the machine stands from its start on");
-    if (thousandth == 0)
-      return with_holders("the machine stays at rest: \"" + link() + "\" never reaches 0.1 % of its rated speed");
-    if (const Event* rest = rest_of(events_.last, {hundredth, thousandth, motion}, m_))
-      return with_holders(fmt::format("the machine comes to rest at {:.4g} s and stays there", rest->t));
-    return with_holders(
-        fmt::format("the machine slows down to rest: \"{}\" is below 0.1 % of its rated speed from {:.4g} s on", link(),
-                    thousandth));
   }
   std::string with_holders(std::string text) {
     for (const std::string& words : equations_.held(state_.t, state_.y)) text += "; " + words;
@@ -269,7 +252,8 @@ class Search {
     looked_at_ = events_.seen;
     const bool sequence = m_.scene.sequence.repeat;
     return comes_again(times_of_last_kind(events_.last, m_),
-                       sequence ? "the operating sequence repeats" : "self-excited vibration, no law sets this period");
+                       sequence ? "the operating sequence repeats" + late_in_words(m_.scene.sequence, options_.clocked)
+                                : "self-excited vibration, no law sets this period");
   }
 
   // The link reverses repeatedly, and no event defines a period.
@@ -296,7 +280,8 @@ class Search {
       slow_ = true;
       // While it still converges this fast, more periods are computed before the period is accepted.
       if (change > settled_time * period && change < fast * std::exchange(period_changes_, change)) return false;
-      if (period_.by_time && is_whole(period, period_.time) != m_.scene.sequence.repeats_freely()) continue;
+      if (period_.by_time && is_whole(period, period_.time) != repeats_freely(m_.scene.sequence, options_.clocked))
+        continue;
       if (!go_where_least_happens(times[0], period)) return false;
       const double exact = events_.last.empty() ? by_whole_state(period) : period;
       const bool repeats = repeats_after(exact, why);
@@ -392,8 +377,9 @@ class Search {
   }
   std::string cycle_words() const {
     if (period_.by_time)
-      return fmt::format("the motion repeats after {:.6g} s, the common period of all that depends on time{}",
-                         period_time(), period_.angle_matters ? " and on an angle" : "");
+      return fmt::format("the motion repeats after {:.6g} s, the common period of all that depends on time{}{}",
+                         period_time(), period_.angle_matters ? " and on an angle" : "",
+                         late_in_words(m_.scene.sequence, options_.clocked));
     const double turns = round_angle() / (2 * std::numbers::pi);
     return fmt::format("the motion repeats after {:.6g} turn{} of \"{}\"", turns, turns == 1 ? "" : "s", link());
   }
@@ -408,7 +394,7 @@ class Search {
       return end(Orbit::Kind::drifting,
                  where + (m_.scene.sequence.repeat ? "the operating sequence still repeats without the motion repeating"
                                                    : "something is still being switched"));
-    if (grows()) return run_away(speeds_.back());
+    if (grows(speeds_)) return run_away(speeds_.back());
     if (period_.by_time && angle_changes_most_)
       return end(
           Orbit::Kind::drifting,
@@ -420,14 +406,6 @@ class Search {
         where + fmt::format(
                     "the motion still changes by {:.2g} of the rated values from cycle to cycle, most of all the {}{}",
                     out_.still_changes, changes_most_, why_not_.empty() ? "" : ": " + why_not_));
-  }
-  // Speeds increase over the second half of all periods, in its second half as much as in its first.
-  bool grows() const {
-    const std::size_t n = speeds_.size();
-    if (n < 40) return false;
-    const double late = speeds_[n - 1] - speeds_[n - 1 - n / 4],
-                 before = speeds_[n - 1 - n / 4] - speeds_[n - 1 - n / 2];
-    return late > 0 && before > 0 && speeds_.back() > 2 && late > 0.5 * before;
   }
 
   std::shared_ptr<const Model> shared_;
@@ -442,8 +420,7 @@ class Search {
   bool slow_ = false, settles_ = false;  // a period has changed little; what did not repeat came nearer to it
   bool repeated_ = false;                // the run did, at the last trial
   double patience_factor_ = 1, period_changes_ = HUGE_VAL;  // change of the own period at the last check [s]
-  static constexpr int most_late_periods = 8;
-  int late_periods_ = 0;  // in succession
+  int late_periods_ = 0;                                    // in succession
   int run_periods_ = 0, settled_periods_ = 0, next_trial_ = 1, next_look_back_ = 16;
   std::vector<State> ends_;  // of the last settled periods before this one
   LastOscillation swings_;
@@ -464,14 +441,9 @@ Orbit find_orbit(std::shared_ptr<const Model> model, const OrbitOptions& options
   Search search(model, options);
   Orbit found = search.run();
   if (!search.begins_late()) return found;
-  // Each repetition begins when the one before it is done, as without a clock.
-  Scene scene = model->scene;
-  const double every = std::exchange(scene.sequence.every, 0);
-  const int before = found.cycles;
-  found = Search(compile_network(model->network, scene, model->effects), options).run();
-  found.cycles += before;
-  if (found.repeats()) found.words += fmt::format("; its steps take longer than every = {:.6g} s", every);
-  return found;
+  OrbitOptions unclocked = options;
+  unclocked.clocked = false;
+  return Search(std::move(model), unclocked).run();
 }
 
 }  // namespace kurbel

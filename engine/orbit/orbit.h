@@ -22,6 +22,7 @@ struct OrbitOptions {
   double budget = 300;  // of processor time, for one integration [s]
   int most_periods = 600;  // periods; the default: four times as many once a period has changed by less than 1e-3
   const std::atomic<bool>* interrupted = nullptr;
+  bool clocked = true;  // a clocked sequence keeps to its clock; if it does not, the search begins anew without
   std::function<void(const std::string& what, double fraction)> progress = {};
 };
 
@@ -29,7 +30,7 @@ struct OrbitOptions {
 OrbitOptions orbit_options(const RunSettings& run, const std::atomic<bool>* interrupted = nullptr);
 // Options of the return map.
 inline ReturnMapOptions map_options(const OrbitOptions& of) {
-  return {of.tolerance, of.method, of.cycles, of.budget, of.interrupted};
+  return {of.tolerance, of.method, of.cycles, of.budget, of.interrupted, of.clocked};
 }
 
 struct Orbit {

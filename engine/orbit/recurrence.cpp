@@ -1,8 +1,13 @@
 // recurrence.cpp — see recurrence.h.
 #include "engine/orbit/recurrence.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "engine/return_map/periodicity.h"
+#include "engine/run/speed_history.h"
 
 namespace kurbel {
 namespace {
@@ -47,6 +52,38 @@ std::optional<double> middle_of_widest_gap(const std::vector<Event>& events, dou
   for (std::size_t i = 0; i + 1 < times.size(); ++i)
     if (times[i + 1] - times[i] > times[widest + 1] - times[widest]) widest = i;
   return 0.5 * (times[widest] + times[widest + 1]);
+}
+
+bool begins_late_in(const EventLog& events, const State& end, const Sequence& sequence) {
+  const double clock = least_repetition(sequence) * (1 + 1e-9);
+  if (clock == 0) return false;
+  return end.t - end.modes.cycle_began > clock || std::any_of(events.begin(), events.end(), [&](const Event& e) {
+           return e.kind == EventKind::note && e.component == "sequence" && e.value > clock;
+         });
+}
+
+std::string late_in_words(const Sequence& sequence, bool clocked) {
+  if (sequence.every == 0 || (clocked && least_repetition(sequence) == sequence.every)) return {};
+  return fmt::format("; its steps take longer than every = {:.6g} s", sequence.every);
+}
+
+bool grows(const std::vector<double>& speeds) {
+  const std::size_t n = speeds.size();
+  if (n < 40) return false;
+  const double late = speeds[n - 1] - speeds[n - 1 - n / 4], before = speeds[n - 1 - n / 4] - speeds[n - 1 - n / 2];
+  return late > 0 && before > 0 && speeds.back() > 2 && late > 0.5 * before;
+}
+
+std::string rest_in_words(const LastMotion& motion, const EventLog& events, const Model& m) {
+  const auto [hundredth, thousandth, moving] = motion.times();
+  const std::string link = m.node_label(m.reduction_node);
+  if (moving == 0) return "the machine stands from its start on";
+  if (thousandth == 0)
+    return fmt::format("the machine stays at rest: \"{}\" never reaches 0.1 % of its rated speed", link);
+  if (const Event* rest = rest_of(events, {hundredth, thousandth, moving}, m))
+    return fmt::format("the machine comes to rest at {:.4g} s and stays there", rest->t);
+  return fmt::format("the machine slows down to rest: \"{}\" is below 0.1 % of its rated speed from {:.4g} s on", link,
+                     thousandth);
 }
 
 }  // namespace kurbel

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/events/event.h"
 #include "engine/model/model.h"
+#include "engine/orbit/link_speeds.h"
+#include "engine/return_map/return_map.h"
 
 namespace kurbel {
 
@@ -26,5 +29,16 @@ bool is_whole(double time, double period);
 
 // Middle [s] of the widest gap between the events of the period that ends at `last`; none: no event is in it.
 std::optional<double> middle_of_widest_gap(const std::vector<Event>& events, double last, double period);
+
+// A repetition of a clocked sequence began late, or is late in the state at the end.
+bool begins_late_in(const EventLog& events, const State& end, const Sequence& sequence);
+// "; its steps take longer than every = 0.5 s"; empty: it keeps to its clock, or has none.
+std::string late_in_words(const Sequence& sequence, bool clocked);
+
+// Values increase over the second half of all, in its second half as much as in its first, beyond 2.
+bool grows(const std::vector<double>& speeds);
+
+// The machine comes to rest by an event, or approaches the rest; as in the periods of a run.
+std::string rest_in_words(const LastMotion& motion, const EventLog& events, const Model& m);
 
 }  // namespace kurbel

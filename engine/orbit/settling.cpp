@@ -21,11 +21,17 @@ double switched_until(const Model& m, const Periodicity& period, const State& st
     const Network::ShaftElement& e = m.network.elements[i];
     for (const double edge : {e.window.start, e.window.stop})
       if (edge < no_edge) until = std::max(until, edge);
-    if (e.element->is.starts_anew) until = std::max(until, state.modes.on_since[i] + e.element->settled_from);
+    const bool repeats = m.scene.sequence.repeat && m.command_of(e.component) >= 0;
+    if (e.element->is.starts_anew && !repeats)
+      until = std::max(until, state.modes.on_since[i] + e.element->settled_from);
   }
   for (const PrescribedSpeed& given : m.network.prescribed)
     if (!given.time.empty()) until = std::max(until, given.time.back());
   const Sequence& sequence = m.scene.sequence;
+  if (sequence.repeat) {
+    const SequenceStep& first = sequence.steps.front();
+    return first.when == SequenceStep::When::at ? std::max(until, first.value) : until;
+  }
   for (const Command& c : state.modes.command)  // a periodic law is part of the periodic motion
     if (!c.holds_still() && !(c.law >= 0 && sequence.steps[at(c.law)].law.period() > 0))
       until = std::max(until, c.until);
@@ -39,13 +45,13 @@ bool waits_for_angle(const Model& m, const Modes& modes) {
   return modes.next_step < sequence.steps.size() && sequence.steps[modes.next_step].when == SequenceStep::When::angle;
 }
 
-bool has_own_period(const Model& m, const Periodicity& period) {
+bool has_own_period(const Model& m, const Periodicity& period, bool clocked) {
   const bool swings = std::any_of(m.network.prescribed.begin(), m.network.prescribed.end(),
                                   [](const PrescribedSpeed& p) { return p.amplitude != 0; });
   const bool driven = std::any_of(m.network.elements.begin(), m.network.elements.end(),
                                   [](const Network::ShaftElement& e) { return e.element->time_period > 0; });
   const Sequence& sequence = m.scene.sequence;
-  return sequence.repeats_freely() || (!period.angle_matters && !swings && !driven && sequence.every == 0);
+  return repeats_freely(sequence, clocked) || (!period.angle_matters && !swings && !driven && sequence.every == 0);
 }
 
 Pace pace_of(Equations& equations, const State& state) {

@@ -14,7 +14,7 @@ double switched_until(const Model& model, const Periodicity& period, const State
 // The next step of the sequence waits for an angle.
 bool waits_for_angle(const Model& model, const Modes& modes);
 // No law over angle or time defines the period: a vibration is self-excited, or the sequence is repeated.
-bool has_own_period(const Model& model, const Periodicity& period);
+bool has_own_period(const Model& model, const Periodicity& period, bool clocked = true);
 
 // Maximum speed, and maximum rate of all states except angles, over the rated values.
 struct Pace {

@@ -59,7 +59,7 @@ int prescribed_node(const Model& m) {
   return found;
 }
 
-Periodicity periodicity_of(const Model& m) {
+Periodicity periodicity_of(const Model& m, bool clocked) {
   Periodicity result;
   std::vector<NamedPeriod> angles, times;
   for (const Network::ShaftElement& e : m.network.elements) {
@@ -72,7 +72,7 @@ Periodicity periodicity_of(const Model& m) {
   for (const CommandTarget& target : m.commands)
     if (const double period = lasting_period(m.scene.sequence, target.component); period > 0)
       times.push_back({period, target.component});
-  if (m.scene.sequence.every > 0) times.push_back({least_repetition(m.scene.sequence), "sequence"});
+  if (m.scene.sequence.every > 0 && clocked) times.push_back({least_repetition(m.scene.sequence), "sequence"});
   for (const ElasticJoint& e : m.elastic) {
     const Network::Joint& joint = m.network.joints[at(e.joint)];
     if (joint.element->is.uses_angle) angles.push_back({turn / m.scale_ratio[at(joint.a)], joint.component});

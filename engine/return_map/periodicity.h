@@ -15,8 +15,14 @@ struct Periodicity {
   double settled_from = 0;     // time from which non-periodic laws are constant [s]
 };
 
-// Throws std::invalid_argument if the periods are not commensurable.
-Periodicity periodicity_of(const Model& model);
+// `clocked`: false for a sequence that does not keep to its clock. Throws std::invalid_argument if the periods are not
+// commensurable.
+Periodicity periodicity_of(const Model& model, bool clocked = true);
+
+// The period is the duration of the steps.
+inline bool repeats_freely(const Sequence& sequence, bool clocked) {
+  return sequence.repeats_freely() || (sequence.repeat && !clocked);
+}
 
 // Common period of the laws over time and of a sequence that repeats by the clock [s]; 0: there are none, or they have no common
 // period. A speed prescribed as a constant is none.

@@ -74,7 +74,7 @@ ReturnMap::Image broken(const Jam& jam) {
 
 ReturnMap::ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions options)
     : shared_(std::move(model)), options_(std::move(options)), equations_(shared_, false) {
-  take_period(periodicity_of(*shared_));
+  take_period(periodicity_of(*shared_, options_.clocked));
 }
 
 ReturnMap::ReturnMap(std::shared_ptr<const Model> model, ReturnMapOptions options, double own_period)
@@ -235,7 +235,8 @@ ReturnMap::Image ReturnMap::image_of(const Eigen::VectorXd& z, bool with_derivat
 // motion, the period is known only approximately; the motion is followed back by the excess time.
 void ReturnMap::in_step_with_sequence(const RunOutcome& outcome, Image& image) {
   const Modes &now = equations_.modes(), &then = section_->state().modes;
-  if (!own_period_ || !shared_->scene.sequence.repeats_freely() || now.next_step != then.next_step) return;
+  if (!own_period_ || !repeats_freely(shared_->scene.sequence, options_.clocked) || now.next_step != then.next_step)
+    return;
   const double late = (outcome.t - now.last_step_time) - (section_->state().t - then.last_step_time);
   std::vector<double> rate(equations_.size());
   equations_.flow(outcome.t, std::span(outcome.state).first(equations_.size()), rate);

@@ -28,6 +28,7 @@ struct ReturnMapOptions {
   int cycles = 1;  // of the machine in one period of the map: k finds motions with the period of k cycles
   double budget = 300;
   const std::atomic<bool>* interrupted = nullptr;
+  bool clocked = true;  // a clocked sequence keeps to its clock
 };
 
 class ReturnMap {

@@ -244,7 +244,7 @@ void CycleRecord::append(const CycleRecord& next) {
 
 void CycleRecorder::remember(Tape& tape) {
   tape(cycles_, low_, high_, sense_, open_, begin_, max_, min_, work_at_begin_, motors_at_begin_, energy_at_begin_,
-       angle_at_begin_);
+       angle_at_begin_, repetition_);
   goes_on_ = tape.reading();
 }
 
@@ -256,7 +256,7 @@ void CycleRecorder::begin(double t, std::span<const double> y, Equations& equati
   const double angle = equations.angle_with_turns(at(m.reduction_angle), y);
   const double place = period_ > 0 ? t : angle, length = period_ > 0 ? period_ : cycle_;
   const double nearest = length * std::round(place / length);
-  if (std::abs(nearest - place) < 1e-9) {  // starts on the boundary
+  if (std::abs(nearest - place) < 1e-9 && !of_sequence_) {  // starts on the boundary
     open_ = true;
     begin_ = t;
     angle_at_begin_ = angle;
@@ -353,7 +353,11 @@ void CycleRecorder::step(StepView& view) {
     }
     from = t;
   };
-  for (; period_ > 0 && high_ <= view.t(); Deadline::check()) {
+  if (const double began = equations.modes().cycle_began; of_sequence_ && began <= view.t_previous()) {
+    if (std::exchange(repetition_, began) != began) pass(from, 1, view);
+    return extreme_until(view.t());
+  }
+  for (; period_ > 0 && !of_sequence_ && high_ <= view.t(); Deadline::check()) {
     const double border = high_;
     extreme_until(border);
     pass(border, 1, view);

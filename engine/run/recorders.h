@@ -137,10 +137,11 @@ struct CycleRecord {
 };
 
 // A cycle lies between two successive multiples of its angle passed in the same direction; if the link reverses, a new
-// cycle begins. Or, with a `period` [s], between two multiples of that.
+// cycle begins. Or, with a `period` [s], between two multiples of that, or between the begins of two repetitions of a clocked
+// sequence, which may be late.
 class CycleRecorder final : public Observer {
  public:
-  explicit CycleRecorder(double period = 0) : period_(period) {}
+  explicit CycleRecorder(double period = 0, bool of_sequence = false) : of_sequence_(of_sequence), period_(period) {}
   void begin(double t, std::span<const double> y, Equations& equations) override;
   void step(StepView& view) override;
   void remember(Tape& tape) override;
@@ -152,7 +153,8 @@ class CycleRecorder final : public Observer {
   void pass(double t, int sense, StepView& view);
   bool idle() const { return cycle_ == 0 && period_ == 0; }
   std::vector<CycleRecord> cycles_;
-  bool goes_on_ = false;
+  bool goes_on_ = false, of_sequence_ = false;
+  double repetition_ = HUGE_VAL;           // begin of the one under way [s]
   double cycle_ = 0, low_ = 0, high_ = 0;  // the multiples below and above, including the last one passed [rad]
   int sense_ = 0;                          // direction of that passage; 0: none yet
   bool open_ = false;                      // a cycle began at a multiple of its angle

@@ -235,7 +235,8 @@ class RunFigures {
   void find_last_cycle() {
     for (const CycleRecord& c : cycles_)
       if (c.end <= run_->periods.judged_until) last_ = &c;
-    if (last_ && (run_->periods.steady || comes_again(*last_))) repeating_ = last_;
+    const Periods& p = run_->periods;
+    if (last_ && (p.steady || (!p.remaining && !p.without_limit && comes_again(*last_)))) repeating_ = last_;
   }
   bool has_cycle() const { return report_.listing() ? model_.cycle > 0 || clock_of(model_) > 0 : last_ != nullptr; }
 
@@ -243,9 +244,8 @@ class RunFigures {
     if (!has_cycle()) return;
     for (const QuantityKind& what : {quantities::delta, quantities::cycle_fluctuation})
       report_(what, link(), [&]() -> std::optional<Found> {
-        constexpr double slight = 0.1, most = 0.5;  // a range that is mostly drift is neither
         const double part = last_ == cycles_.data() ? 0 : drift_of(*last_, last_[-1], tolerance_);
-        if (part > most || (what == quantities::delta) != (repeating_ && part <= slight)) return {};
+        if (part > 0.5 || (what == quantities::delta) != (repeating_ && part <= 0.1)) return {};
         return Found{last_->fluctuation(), 1, last_->end};
       });
     report_(quantities::mid_speed, link(), [&] { return Found{last_->mid_speed(), model_.speed_scale, last_->end}; });
@@ -262,7 +262,7 @@ class RunFigures {
     });
     report_(quantities::period, "", [&]() -> std::optional<Found> {
       if (!repeating_ || (run_->periods.cycles == 1 && run_->periods.time == 0)) return {};
-      return Found{time, time, last_->end, run_->periods.time > 0, off};
+      return Found{time, time, last_->end, run_->periods.time > 0 && run_->periods.time == clock_of(model_), off};
     });
     for (const Account kind : {Account::driving, Account::useful, Account::harmful})
       report_(work_per_cycle_of(kind), "", [&] {

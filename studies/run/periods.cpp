@@ -154,6 +154,15 @@ double range_of_mids(std::size_t n, const std::vector<CycleRecord>& cycles) {
   return range_of(mid);
 }
 
+// Of the clock; of a clocked sequence whose repetitions begin late, the time between them.
+double time_of_period(const Model& model, const DrivenTime& d) {
+  constexpr double same = 1e-9;
+  const double clock = clock_of(model);
+  if (d.by_time.empty()) return clock;
+  const double last = d.by_time.back().end - d.by_time.back().begin;
+  return std::abs(last - clock) <= same * clock ? clock : last;
+}
+
 // The period of the motion, if it is steady by one; else single cycles. Empty: too few of them.
 std::optional<Approach> find_period(const Model& model, double tolerance, DrivenTime& d, Periods& periods) {
   const double noise = std::min(noise_of_tolerance * tolerance, most_noise) * std::abs(d.speed);
@@ -181,7 +190,7 @@ std::optional<Approach> find_period(const Model& model, double tolerance, Driven
       best = approach, found = list, several = n;
     }
   if (found) {
-    periods.cycles = static_cast<int>(several), periods.time = found == &d.by_time ? clock_of(model) : 0;
+    periods.cycles = static_cast<int>(several), periods.time = found == &d.by_time ? time_of_period(model, d) : 0;
     d.unlike = unlike(several, least_means * several, model, *found, 10 * least_work);
   }
   if (const auto whole = in_periods(periods.time > 0 ? d.by_time : d.cycles, periods.cycles); !whole.empty())
@@ -201,7 +210,7 @@ std::string remaining_in_words(const Approach& approach, double v, bool steady) 
 }
 
 void judge_steadiness(const Model& model, double tolerance, DrivenTime& d, Periods& periods) {
-  if (model.cycle == 0) periods.time = clock_of(model);
+  if (model.cycle == 0) periods.time = time_of_period(model, d);
   const bool in_parts = model.cycle == 0 && periods.time == 0;
   const std::string length = periods.time > 0 ? fmt::format(" of {:.6g} s", periods.time) : "";
   const std::string unit = in_parts ? "sixteenth of the time" : (model.cycle > 0 ? "cycle" : "period") + length;
@@ -367,9 +376,11 @@ std::vector<CycleRecord> in_periods(const std::vector<CycleRecord>& cycles, int 
 }
 
 double drift_of(const CycleRecord& last, const CycleRecord& before, double tolerance) {
-  const double change = std::abs(last.mid_speed() - before.mid_speed());
+  const auto range = [](const CycleRecord& c) { return std::abs(c.omega_max - c.omega_min); };
+  const double change =
+      std::max(std::abs(last.mid_speed() - before.mid_speed()), std::abs(range(last) - range(before)));
   if (change <= noise_of_tolerance * tolerance * std::abs(last.mid_speed())) return 0;
-  return change / std::abs(last.omega_max - last.omega_min);
+  return change / range(last);
 }
 
 }  // namespace kurbel

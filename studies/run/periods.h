@@ -63,7 +63,8 @@ Periods find_periods(const Model& model, const LinkHistory& link, double toleran
 // Records of so many cycles in a row, the last one with the last cycle that ends by `until`.
 std::vector<CycleRecord> in_periods(const std::vector<CycleRecord>& cycles, int in_a_row, double until = HUGE_VAL);
 
-// Change of the mid speed from one record to the next, over the range of the speed in that; 0 within the run's errors.
+// Change of the mid speed, or of the range of the speed, from one record to the next, over that range; 0 within the run's
+// errors.
 double drift_of(const CycleRecord& last, const CycleRecord& before, double tolerance);
 
 }  // namespace kurbel

@@ -324,7 +324,8 @@ class Simulation {
     std::vector<Observer*> observers = {run->trajectory.get(), run->extremes.get(), &run->cycles,
                                         run->speed.get(),      run->energy.get(),   run->ranges.get(),
                                         run->slips.get(),      run->link.get(),     &run->switchings};
-    if (const double clock = clock_of(model); clock > 0) observers.push_back(&(run->by_time = CycleRecorder(clock)));
+    if (const double clock = clock_of(model); clock > 0)
+      observers.push_back(&(run->by_time = CycleRecorder(clock, clock == least_repetition(model.scene.sequence))));
     if (!run->falls->empty()) observers.push_back(run->falls.get());
     if (!run->currents->empty()) observers.push_back(run->currents.get());
     if (run->heat) observers.push_back(run->heat.get());
