@@ -12,12 +12,14 @@
 #include "engine/numerics/index.h"
 #include "engine/run/run.h"
 #include "mechanisms/reduced/mechanism.h"
+#include "studies/answers/holders.h"
 
 namespace kurbel {
 namespace {
 
 constexpr double slipping_from = 1e-3;   // of the usual speed: below it a shaft stands, or nothing slips
 constexpr double transmits_from = 1e-6;  // of the usual torque
+constexpr double most_of = 0.95;         // of a brake's torque
 
 std::string so_often(int count) { return count == 1 ? "once" : count == 2 ? "twice" : fmt::format("{} times", count); }
 
@@ -196,8 +198,13 @@ class ContactJudge {
       if (!(std::abs(torque) > transmits_from * m_.torque_scale)) continue;
       const std::string slips =
           fmt::format("{}{}", text(speed), speed * m_.node_ratio[at(element.node)] < 0 ? ", backwards," : "");
-      if (put_on > 0)
-        does_not_stop(element.component, put_on, speed, change, std::abs(torque), slips);
+      const double ratio = m_.node_ratio[at(element.node)];
+      const bool driven =
+          ratio != 0 && driving_torque(equations_, now_, shaft) * speed / ratio >= most_of * std::abs(torque * speed);
+      if (put_on > 0 && is_full(element.component))
+        does_not_stop(element.component, put_on, speed, change, std::abs(torque), driven, slips);
+      else if (put_on > 0)
+        continue;  // its ramp goes on
       else
         add(claims_, claimed(Predicate::slips_to_the_end,
                              fmt::format("\"{}\" is on and slips to the end, at {} under its {:.4g} N·m",
@@ -230,15 +237,23 @@ class ContactJudge {
                             brake.component, so_often(released), first),
                 brake.component, {.at = first, .value = released, .limit = 0}));
   }
-  void does_not_stop(const std::string& brake, double put_on, double speed, double change, double torque,
+  bool is_full(const std::string& brake) const {
+    const int c = m_.command_of(brake);
+    return c < 0 || equations_.modes().command[at(c)].holds_still();
+  }
+  // `driven`: what drives the shaft takes nearly all of the brake's torque, so that what is left does not stop it.
+  void does_not_stop(const std::string& brake, double put_on, double speed, double change, double torque, bool driven,
                      const std::string& slips) {
-    // Shafts that run steadily with it slow down within a cycle only, unless a sequence repeats its braking.
-    const bool goes_on = result_.periods.steady && !result_.periods.run_down_begin && !m_.scene.sequence.repeat;
+    // Shafts that run steadily with it slow down within a cycle only, unless a sequence repeats its braking. Whether they do
+    // is not judged from a brake of the last moments.
+    constexpr double long_enough = 0.25;  // of the run
+    const bool goes_on = result_.periods.steady && !result_.periods.run_down_begin && !m_.scene.sequence.repeat &&
+                         (driven || outcome_.t - put_on > long_enough * outcome_.t);
     const double braked = outcome_.t - put_on,
                  more = speed * change < 0 && !goes_on ? std::abs(speed / change) : HUGE_VAL;
     const Evidence evidence{
         .at = put_on, .value = std::abs(speed), .limit = 0, .error = error_of_speeds(brake), .unit = "rad/s"};
-    if (more > outcome_.t)
+    if (more == HUGE_VAL || (driven && more > outcome_.t))
       add(claims_, claimed(Predicate::brake_does_not_stop,
                            fmt::format("\"{}\" does not stop it: it slips at {} after {:.3g} s; its {:.4g} N·m are too "
                                        "weak for what drives",
