@@ -1,6 +1,7 @@
 // work_periods.cpp — cycles sorted into periods, works summed up between them.
 #include "studies/duty/work_periods.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -118,6 +119,43 @@ void report_works(const Model& m, const std::vector<WorkPeriod>& periods, Figure
     report_one("energy",
                [](const WorkPeriod& p) { return Found{.value = p.energy, .resolution = p.energy_resolution}; });
   }
+}
+
+EnergyBalance energy_balance(const Model& model, const EnergyAudit& audit) {
+  EnergyBalance e;
+  for (std::size_t k = 0; k < audit.work.size(); ++k) {
+    e.by_line[name_of(model.accounts[k].kind)] += audit.work[k];
+    e.by_account[model.accounts[k].name] += audit.work[k];
+  }
+  e.kinetic_start = audit.kinetic_start;
+  e.kinetic_end = audit.kinetic_end;
+  e.stored_start = audit.stored_start;
+  e.stored_end = audit.stored_end;
+  e.residual = audit.largest_residual;
+  e.relative = audit.relative();
+  e.reduction_residual = audit.reduction_residual;
+  e.free_bodies = audit.open_body.part;
+  e.checks = audit.checked;
+  return e;
+}
+
+void close_balance(Equations& equations, const RunOutcome& outcome, EnergyAudit& audit) {
+  if (outcome.complete || !equations.audit() || outcome.state.size() < equations.size()) return;
+  const double kinetic = equations.kinetic_energy_of_bodies(outcome.t, outcome.state),
+               stored = equations.stored_energy(outcome.t, outcome.state);
+  std::vector<double> work = works_done(equations, outcome.state);
+  double sum = 0, turned_over = 0;
+  for (std::size_t k = 0; k < work.size(); ++k) {
+    sum += work[k];
+    turned_over += std::abs(work[k] - (k < audit.work.size() ? audit.work[k] : 0));
+  }
+  if (!std::isfinite(kinetic + stored + sum)) return;  // at the end of its reach: the balance of the last check
+  audit.turnover += turned_over;
+  audit.largest_kinetic = std::max(audit.largest_kinetic, kinetic);
+  audit.largest_residual =
+      std::max(audit.largest_residual, std::abs(kinetic + stored - audit.kinetic_start - audit.stored_start - sum));
+  audit.kinetic_end = kinetic, audit.stored_end = stored;
+  audit.work = std::move(work);
 }
 
 }  // namespace kurbel

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/events/equations.h"
+#include "engine/run/run.h"
 #include "studies/findings/result.h"
 
 namespace kurbel {
@@ -27,6 +28,11 @@ std::vector<double> works_done(const Equations& equations, std::span<const doubl
 // as long as harmful work is negative, whether the period closes or not; empty if there is no useful work.
 //     η = −A_u/(A_d + A_w − ΔE)
 std::optional<double> efficiency_of(double driving, double useful, double weight, double energy);
+
+// The observer's data for a Result.
+EnergyBalance energy_balance(const Model& model, const EnergyAudit& audit);
+// Works and energies up to the end of a run that stopped between two checks of its balance.
+void close_balance(Equations& equations, const RunOutcome& outcome, EnergyAudit& audit);
 
 struct WorkPeriod {
   const char* name = "";  // "run_up", "steady_motion", "run_down"

@@ -323,7 +323,8 @@ class RunFigures {
   void add_work() {
     for (const Account kind : all_accounts)
       report_(quantities::work, name_of(kind), [&] {
-        return Found{works_by_kind(model_, run_->energy->work)[static_cast<std::size_t>(kind)], energy_scale()};
+        const double done = works_by_kind(model_, run_->energy->work)[static_cast<std::size_t>(kind)];
+        return Found{done, energy_scale(), run_->outcome.complete ? std::nullopt : std::optional(run_->outcome.t)};
       });
   }
   double begin() const { return run_->trajectory->time().empty() ? 0 : run_->trajectory->time().front(); }
@@ -406,26 +407,9 @@ QuantityKind work_per_cycle_of(Account account) {
 }
 
 void collect_figures(const Model& model, Equations& equations, double tolerance, OneRun& run) {
+  close_balance(equations, run.outcome, *run.energy);
   RunFigures(model, equations, run, tolerance).collect();
   run.last_state = last_state(model, equations, run.outcome);
-}
-
-EnergyBalance energy_balance(const Model& model, const EnergyAudit& audit) {
-  EnergyBalance e;
-  for (std::size_t k = 0; k < audit.work.size(); ++k) {
-    e.by_line[name_of(model.accounts[k].kind)] += audit.work[k];
-    e.by_account[model.accounts[k].name] += audit.work[k];
-  }
-  e.kinetic_start = audit.kinetic_start;
-  e.kinetic_end = audit.kinetic_end;
-  e.stored_start = audit.stored_start;
-  e.stored_end = audit.stored_end;
-  e.residual = audit.largest_residual;
-  e.relative = audit.relative();
-  e.reduction_residual = audit.reduction_residual;
-  e.free_bodies = audit.open_body.part;
-  e.checks = audit.checked;
-  return e;
 }
 
 std::map<std::string, ComponentState> final_state(const Model& model, const std::vector<Figure>& last_state) {

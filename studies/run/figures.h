@@ -54,8 +54,6 @@ struct OneRun {
 // motion.
 void collect_figures(const Model& model, Equations& equations, double tolerance, OneRun& run);
 
-// The observers' data for a Result.
-EnergyBalance energy_balance(const Model& model, const EnergyAudit& audit);
 // By component; empty for a run without progress, whose `last_state` is empty.
 std::map<std::string, ComponentState> final_state(const Model& model, const std::vector<Figure>& last_state);
 
