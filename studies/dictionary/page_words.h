@@ -57,8 +57,10 @@ inline constexpr PageWord of_pages[] = {
     {"largest; least; most; largest [*]; least [*]; most [*]", of_all, "greatest or least value in the cycle"},
     {"amplitude; amplitude [*]; its amplitude; relative amplitude; sum of amplitudes; Σ of amplitudes; amplitude of *",
      "steady, modes, report",
-     "half the range of one harmonic; of a mode relative to its largest; Σ: of all harmonics, as if they peaked "
-     "together"},
+     "half the range of one harmonic; of a mode relative to its largest; of a torque in the forced response the "
+     "largest "
+     "deviation from its mean; of a shaft's stress half its range, (τ_max − τ_min)/2; Σ: of all harmonics, as if they "
+     "peaked together"},
     {"phase; phase [*]", "steady, modes, fit", "of a harmonic: cos(n φ + phase), φ the angle of the reduction link"},
     {"order; order *; strongest order; all orders; * · *×; * · *× *; * · mesh *", "steady, modes, report, forces, fit",
      "harmonic per turn of the shaft named beside it: order 2 occurs twice per turn; `mesh`: teeth per turn"},
@@ -151,7 +153,7 @@ inline constexpr PageWord of_pages[] = {
     {"mean torque over a cycle; drive M_d; loads M_c; stable", "steady",
      "of drive and loads over the speed; they meet at operating speeds, stable where the drive's falls below the "
      "loads'"},
-    {"ratio to the link; fastest; time to * of the steady speed", "steady, size",
+    {"ratio to the link; fastest; time to * of the steady speed; time to * of the present steady speed", "steady, size",
      "of each shaft over the reduction link; a start of the rigid machine"},
     {"slot: *; slot [N]; lever bearing*; block; pin; №", "forces, reduce",
      "joints of a mechanism, and what acts in them: reactions in N, moments in N·m; №: number of the position"},
@@ -248,7 +250,8 @@ inline constexpr PageWord of_pages[] = {
     {"τ_C, *; τ_T, *", "report", "stresses allowed for continuous running and for quick passing (IACS UR M68)"},
     {"order of the inertia; around; variation ε; half width; state", "modes",
      "parametric instability: ranges of speed 2 ω_n/order in which the varying inertia makes a mode grow"},
-    {"dissipated; case; cases; set; in frequency; in time; machine; scene; operating speeds; misfires; cylinder * "
+    {"dissipated; case; cases; set; in frequency; in time; machine; scene; verdict; operating speeds; misfires; "
+     "cylinder * "
      "misfires; beside it; file; distribution",
      of_trains,
      "power in a coupling's damping; cases of failure and what they change; sources and tolerances of the data"},

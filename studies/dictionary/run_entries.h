@@ -82,7 +82,7 @@ inline constexpr Definition of_channels_and_runs[] = {
     {"run_up_time", "run-up time", "s", "", "11.6", of_runs,
      "from the start until the reduction link's speed enters for good the range of the last cycle, widened by a "
      "twentieth of it, but by 0.1 … 1 % of the steady speed; by 1 % if later cycles leave that range. Without a cycle "
-     "steady speed ± 1 %. Of steady motion only",
+     "steady speed ± 1 %. Of steady motion only, and not of a link that reverses within its cycle",
      "", "the time to 95 % of the steady speed, which is start_time"},
     {"run_down_time", "run-down time", "s", "", "2", of_runs,
      "from the moment at which the last driving source goes off for good to standstill: at rest, or below 0.1 % of the "
@@ -134,8 +134,8 @@ inline constexpr Definition of_a_cycle[] = {
     {"delta", "speed fluctuation δ", "", "SHAFT", "2.6", of_both,
      "range of the speed within one cycle of motion that repeats, over its middle",
      "δ = (ω_max − ω_min)/ω_mid, ω_mid = ½ (ω_max + ω_min)",
-     "of a whole run with its start, nor of motion that does not repeat (cycle_fluctuation); an elastic machine has "
-     "another δ at every shaft"},
+     "of a whole run with its start, nor of motion that does not repeat (cycle_fluctuation), nor of a shaft that "
+     "reverses within the cycle; an elastic machine has another δ at every shaft"},
     {"cycle_fluctuation", "fluctuation in the last cycle", "", "LINK", "2.6", of_runs,
      "as δ, of the last whole cycle of a run that is not steady, or drifts by a tenth of this or more in a cycle; none "
      "if most of it is drift",

@@ -171,6 +171,7 @@ class Study {
     prescribed_ = steady_motion(loads_, speed.value, options_.positions);
     std::vector<PositionForces> samples;
     out_.prescribed = linkage_cycle(*statics_, loads_, prescribed_, &samples);
+    out_.prescribed->assumed_speed = speed.assumed;
     const auto at = [&](double phi) {
       return linkage_position(*statics_, loads_, phi, {speed.value, 0, loads_.left()});
     };
@@ -292,7 +293,8 @@ CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& o
   if (run.known())
     return {run.fastest * to_crank,
             (run.said ? "the fastest " + run.words : run.words) + ", as the scene starts from rest"};
-  return {machine.rated_speed(), "reference speed of the machine, as the scene starts from rest"};
+  return {machine.rated_speed(),
+          "a reference speed, as the scene states none and starts from rest; --speed gives another", true};
 }
 
 void describe(const AskedMechanism& asked, Forces& out) {

@@ -122,6 +122,7 @@ struct ForceCycle {
   double begin = 0, cycle = 0;                       // where the cycle or range begins, and its length [rad]
   bool repeats = true;                               // else a range of a crank that rocks: it has no orders
   Estimate mean_speed, least_speed, greatest_speed;  // of the crank; the mean over the time [rad/s]
+  bool assumed_speed = false;                        // neither requested nor from the scene
   Estimate closure;                                  // speed at the end − at the begin, over the mean: 0 if steady
   std::vector<PositionForces> positions;             // 720 per turn, equidistant, both ends, always
   std::vector<PositionForces> rows;                  // the requested ones, both ends

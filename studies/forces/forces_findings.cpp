@@ -44,8 +44,10 @@ std::string over_range(const ForceCycle& c) {
 // "press at 60 rpm: the main bearing (frame on crank) carries up to 10.45 kN (at 90.0°)", or that reactions have no bound.
 std::string begin_conclusion(const Forces& f, const ForceCycle& front) {
   const double range = front.greatest_speed.value - front.least_speed.value;
-  const std::string moving = fmt::format("{} at {}{}", f.mechanism, f.speed_unit.text(front.mean_speed.value, 4),
-                                         range > 1e-4 * std::abs(front.mean_speed.value) ? " on average" : "");
+  const char* const kind = front.assumed_speed ? " (reference speed, which the scene does not state)"
+                           : range > 1e-4 * std::abs(front.mean_speed.value) ? " on average"
+                                                                             : "";
+  const std::string moving = fmt::format("{} at {}{}", f.mechanism, f.speed_unit.text(front.mean_speed.value, 4), kind);
   if (f.unbounded.any()) return begin_unbounded(moving, f.unbounded);
   if (front.reactions.empty()) return moving + ": reactions in its joints are not assessed";
   const NamedPeak& first = front.reactions.front();

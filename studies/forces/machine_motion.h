@@ -101,6 +101,7 @@ std::optional<MotionAlong> rigid_motion(const AskedMechanism& asked, const Effec
 struct CrankSpeed {
   double value = 0;  // [rad/s]
   std::string source;
+  bool assumed = false;  // neither requested nor from the scene
 };
 CrankSpeed prescribed_speed(const MachineMotion& machine, const ForcesOptions& options);
 

@@ -25,7 +25,9 @@ inline constexpr const char *chapter_of_rigid = "The rigid machine", *chapter_of
 
 // No account has done work, and stored energy has not changed: the energy balance proves nothing.
 bool nothing_turned_over(const EnergyBalance& energy);
-// False for figures without a value in a run that broke off.
+// The link turns in both senses within the period: δ and a run-up mean nothing for it.
+bool reverses_within_cycle(const Result& result);
+// False for figures without a value in a run that broke off, and for what means nothing for a link that reverses.
 bool is_reported(const Figure& figure, const Result& result);
 // False for a run that broke off before its works were computed.
 bool has_works(const Result& result);

@@ -31,12 +31,27 @@ std::string of_last_cycle(const Result& r) {
 
 }  // namespace
 
+bool reverses_within_cycle(const Result& r) {
+  if (!r.model) return false;
+  const auto last = std::find_if(r.cycles.rbegin(), r.cycles.rend(),
+                                 [&](const CycleRecord& c) { return c.end <= r.periods.judged_until; });
+  double least = 0, greatest = 0;
+  for (auto c = last; c != r.cycles.rend() && c - last < r.periods.cycles; ++c)
+    least = std::min(least, c->omega_min), greatest = std::max(greatest, c->omega_max);
+  const double rounding = 1e-6 * r.model->speed_scale;
+  return least < -rounding && greatest > rounding;
+}
+
 bool nothing_turned_over(const EnergyBalance& e) {
   return e.kinetic_start == e.kinetic_end && e.stored_start == e.stored_end &&
          std::all_of(e.by_account.begin(), e.by_account.end(), [](const auto& account) { return account.second == 0; });
 }
 
-bool is_reported(const Figure& f, const Result& r) { return r.complete || std::isfinite(f.value); }
+bool is_reported(const Figure& f, const Result& r) {
+  if (!r.complete && !std::isfinite(f.value)) return false;
+  return !is_one_of(f.what, {quantities::delta, quantities::cycle_fluctuation, quantities::run_up_time}) ||
+         !reverses_within_cycle(r);
+}
 
 bool has_works(const Result& r) {
   const auto finite = [](const auto& line) { return std::isfinite(line.second); };
@@ -153,7 +168,9 @@ std::string figures_in_words(const Result& r) {
                      force->at ? " at " + short_text(*force->at, "s") : ""));
   if (const Figure* delta = first_of(r, quantities::delta); delta && delta->value < stands_within_the_cycle)
     more(fmt::format("the speed of \"{}\" fluctuates by δ = {}", delta->of, reported(*delta)));
-  if (const Figure* cycle = first_of(r, quantities::cycle_fluctuation); cycle && cycle->value < stands_within_the_cycle)
+  constexpr double none = 1e-12;  // of a prescribed speed
+  if (const Figure* cycle = first_of(r, quantities::cycle_fluctuation);
+      cycle && cycle->value < stands_within_the_cycle && cycle->value > cycle->error.value_or(0) + none)
     more(fmt::format("the speed of \"{}\" changes by {} of its mid value in the last cycle, {}", cycle->of,
                      reported(*cycle),
                      r.periods.steady                                 ? "part of which is drift"

@@ -276,6 +276,7 @@ class Search {
 
   // An equilibrium has no cycles: the time is given instead.
   std::string stability_in_words() {
+    if (out_.unknowns == 0) return "its speed is prescribed, and nothing deviates from it";
     const std::string text =
         stability_text(out_.point.multipliers, &out_.halving, out_.point.multiplier_error, map_->options().cycles);
     if (out_.kind != Orbit::Kind::equilibrium || !out_.halving) return text;

@@ -51,6 +51,10 @@ std::string OperatingDiagram::why_none(const std::string& link) const {
         "the drive's mean torque on \"{}\" just balances the loads' at {} and falls behind at every other speed: "
         "mean torques do not decide whether the machine keeps that speed",
         link, speed_text(speed_unit, least->omega));
+  if (least->net() < 0 && strongest.value <= balance_error)
+    return fmt::format(
+        "stall: nothing drives \"{}\": the drive's mean torque is {} at every speed, and the loads' is not", link,
+        strongest.value < -balance_error ? "negative" : "zero");
   if (least->net() < 0)
     return fmt::format(
         "stall: at every speed the loads' mean torque on \"{}\" exceeds the drive's, at the least by {} ({} against {} "

@@ -286,9 +286,9 @@ Plot start_plot(const SteadyStudy& s) {
 }
 
 Plot ratio_plot(const RatioSearch& r) {
-  return {.title = fmt::format("Start time over the ratio of \"{}\"", r.gearbox),
+  return {.title = fmt::format("Start time of the driven side over the ratio of \"{}\"", r.gearbox),
           .x = {"ratio", "", true},
-          .y = {"time to 95 % of the steady speed", "s"},
+          .y = {"time to 95 % of the present steady speed", "s"},
           .series = {{.name = "simulated", .role = Role::rigid, .x = r.ratio, .y = r.time, .points = true},
                      marks({.name = "fastest", .role = Role::vermillion, .x = {r.best}, .y = {r.best_time}})}};
 }

@@ -186,8 +186,8 @@ std::vector<std::string> words_of_start(const SteadyStudy& s) {
                                      : "Start: " + s.start->why);
   for (const RatioSearch& r : s.ratios)
     words.push_back(fmt::format(
-        "Fastest start with ratio {} of \"{}\"{}: {}; {}", number(r.best), r.gearbox,
-        r.at_bound ? " (the end of what was tried)" : "", short_text(r.best_time, "s"),
+        "The driven side of \"{}\" has 95 % of its present steady speed soonest with ratio {}{}: {}; {}", r.gearbox,
+        number(r.best), r.at_bound ? " (the end of what was tried)" : "", short_text(r.best_time, "s"),
         r.present_time > 0 ? fmt::format("its ratio is {}: {}", number(r.present), short_text(r.present_time, "s"))
                            : fmt::format("with its ratio of {} the machine does not start", number(r.present))));
   return words;

@@ -10,11 +10,14 @@
 #include "studies/claims/headline.h"
 #include "studies/dictionary/dictionary.h"
 #include "studies/difference/difference.h"
+#include "studies/findings/output.h"
+#include "studies/forces/forces_findings.h"
 #include "studies/modes/modes.h"
 #include "studies/modes/modes_plots.h"
 #include "studies/run/run_findings.h"
 #include "studies/size/size.h"
 #include "studies/steady/steady.h"
+#include "studies/steady/steady_words.h"
 #include "studies/sweep/sweep_findings.h"
 #include "tests/support/scenes.h"
 
@@ -207,6 +210,122 @@ TEST(PlainSentences, WordsOfPagesAreExplained) {
   for (const char* words : {"thermal load", "load edge", "folded dead centre", "Floquet multipliers", "angle of motor",
                             "UR M68", "spot checks", "internal states", "resonance passed", "severity"})
     EXPECT_NE(meant_by(words), nullptr) << words;
+}
+
+// A four-bar as a pendulum: it falls to the end of its crank's arc, where the run stops between two checks of its balance.
+const char* const pendulum = R"(
+line = ["rocker"]
+[rocker]
+kind = "four-bar"
+crank = "100 mm"
+coupler = "150 mm"
+rocker = "90 mm"
+ground = "220 mm"
+crank_mass = "4 kg"
+crank_com = "60 mm"
+crank_inertia = "0.02 kg*m2"
+coupler_mass = "2 kg"
+coupler_inertia = "0.004 kg*m2"
+rocker_mass = "3 kg"
+rocker_com = "40 mm"
+rocker_inertia = "0.008 kg*m2"
+gravity = "9.81 m/s2"
+[run]
+start = { angle = "-20 deg" }
+until = "3 s"
+)";
+
+// Weights alone do work: it is the kinetic energy, in the figures and in the balance.
+TEST(PlainSentences, WorksOfAnIncompleteRunAreThoseUpToItsEnd) {
+  const Result r = test::run(test::scene_from(pendulum), false);
+  ASSERT_FALSE(r.complete);
+  ASSERT_GT(r.energy.kinetic_end, 1);
+  EXPECT_NEAR(test::figure(r, "work.weight"), r.energy.kinetic_end - r.energy.kinetic_start,
+              1e-4 * r.energy.kinetic_end);
+  const Figure* const weight = r.find("work.weight");
+  ASSERT_TRUE(weight && weight->at);
+  EXPECT_LT(*weight->at, 0.5);
+  EXPECT_TRUE(has(terminal_text(findings_of(r, nullptr), true), "work: weight 4.88")) << r.diagnosis;
+}
+
+// No drive, at rest: the speed of the first problem is nobody's, and the sentence says so.
+TEST(PlainSentences, ForcesNameASpeedThatTheSceneDoesNotState) {
+  const Scene scene = test::scene_from(pendulum);
+  const std::string words = "(reference speed, which the scene does not state)";
+  const std::string assumed = findings_of(find_forces(scene, {})).conclusion();
+  EXPECT_TRUE(has(assumed, words)) << assumed;
+  ForcesOptions at_speed;
+  at_speed.speed = 10;
+  const std::string asked = findings_of(find_forces(scene, at_speed)).conclusion();
+  EXPECT_FALSE(has(asked, words)) << asked;
+}
+
+// To and fro on a torsion spring: half the sum of the extreme speeds is no reference, and there is no run-up to it.
+TEST(PlainSentences, ALinkThatReversesHasNoFluctuation) {
+  const Scene scene = test::scene_from(R"(
+line = ["drive", "rocker"]
+[drive]
+kind = "torque source"
+amplitude = "3 N*m"
+frequency = "2 Hz"
+inertia = "0.01 kg*m2"
+[rocker]
+kind = "linkage"
+unit = "mm"
+points = { O = [0, 0], A = [100, 0], B = [178.18, 128.02], C = [220, 0] }
+frame = "O C"
+lengths = { AB = "150 mm" }
+[rocker.links]
+crank = { points = "O A", mass = "4 kg", inertia = "0.02 kg*m2" }
+coupler = { points = "A B", mass = "2 kg", inertia = "0.004 kg*m2" }
+arm = { points = "C B", mass = "3 kg", inertia = "0.008 kg*m2" }
+[rocker.couples]
+bar = { between = "frame crank", stiffness = "40 N*m/rad", damping = "0.4 N*m*s/rad" }
+[run]
+until = "10 s"
+)");
+  const Result r = test::run(scene, false);
+  ASSERT_TRUE(r.complete && reverses_within_cycle(r)) << r.diagnosis;
+  const Findings f = findings_of(r, nullptr);
+  const std::string text = terminal_text(f, true), json = json_text(summary_of(f));
+  EXPECT_TRUE(has(text, "moves to and fro with a period of 0.5 s")) << text;
+  for (const char* figure : {"delta.rocker", "cycle_fluctuation", "run_up_time"})
+    EXPECT_FALSE(has(text, figure) || has(json, figure)) << figure;
+  EXPECT_TRUE(has(text, "period"));
+}
+
+// A prescribed speed neither changes nor deviates: that it does not is nothing that was found.
+TEST(PlainSentences, APrescribedSpeedIsNotJudged) {
+  const Scene scene = test::scene_from(R"(
+line = ["drive", "press"]
+[drive]
+kind = "prescribed speed"
+speed = "90 rpm"
+[press]
+kind = "slider-crank"
+radius = "100 mm"
+rod = "400 mm"
+slider_mass = "20 kg"
+[run]
+until = "2 s"
+)");
+  const std::string run = findings_of(test::run(scene, false), nullptr).conclusion();
+  EXPECT_TRUE(has(run, "90 rpm")) << run;
+  EXPECT_FALSE(has(run, "whose steadiness")) << run;
+  const SteadyStudy study = steady(scene, {Effects{}}, {});
+  EXPECT_TRUE(has(study.conclusion, "its speed is prescribed")) << study.conclusion;
+  EXPECT_FALSE(has(study.conclusion, "stable")) << study.conclusion;
+}
+
+// Another ratio gives another steady speed: what was compared is the time to the present one.
+TEST(PlainSentences, TheFastestRatioIsSaidWithItsCriterion) {
+  SteadyStudy study;
+  study.ratios = {{"g1", 2.5, 1.793, 3.1, 2.951, {}, {}, false}};
+  const std::vector<std::string> words = words_of_start(study);
+  ASSERT_EQ(words.size(), 1U);
+  EXPECT_EQ(words.front(),
+            "The driven side of \"g1\" has 95 % of its present steady speed soonest with ratio 1.793: 2.951 s; its "
+            "ratio is 2.5: 3.1 s");
 }
 
 }  // namespace
