@@ -137,11 +137,11 @@ constexpr std::array kinds = {
               "friction holds it soon after that (this hold is the time of rest if friction is the greater part of the "
               "braking torque at 0.1 % and no vibration reverses there)",
               "at: of its rest; value: speed at the end [rad/s]", "\"pendulum\" is at rest after 6 s",
-              "run, compare, steady"},
+              "run, compare, steady, modes"},
     ClaimKind{not_steady_yet, runs, note, anything, "the mid speed is more than 0.1 % away from its limit",
               "at: end of the run; value: remaining change of the mid speed [rad/s]",
               "\"motor\" has not reached a steady motion by 8 s: the mean speed is still 0.852 % below its final value",
-              "run, compare"},
+              "run, compare, modes"},
     ClaimKind{moves, runs, note, anything,
               "the run is too short for any other claim; a speed beyond 1.5 times the usual one is stated",
               "at: end of the run; value: speed at the end [rad/s]", "\"crank\" is at 149.7 rad/s after 0.1 s",

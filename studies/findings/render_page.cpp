@@ -148,7 +148,7 @@ std::vector<std::string> Rows::headings() const {
 
 std::vector<std::vector<std::string>> Rows::texts(bool all_digits) const {
   std::vector<std::vector<std::string>> all;
-  for (const std::size_t i : for_people ? *for_people : numbers_below(count)) {
+  for (const std::size_t i : for_people && !(all_digits && whole_in_long_form) ? *for_people : numbers_below(count)) {
     std::vector<std::string>& row = all.emplace_back();
     for (const Column& c : columns)
       if (c.for_people) row.push_back(readable(all_digits && !c.long_texts.empty() ? c.long_texts[i] : c.texts[i]));

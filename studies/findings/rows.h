@@ -79,6 +79,7 @@ struct Rows {
   std::size_t count = 0;
   std::size_t for_programs = SIZE_MAX;                         // at most this many
   std::optional<std::vector<std::size_t>> for_people = {};     // indices of the shown rows; none: all
+  bool whole_in_long_form = false;                             // --all shows rows beside `for_people`, too
   std::size_t text_columns = 1, text_columns_on_terminal = 1;  // leading text columns; the rest: numbers, on the right
   bool terminal = true, page = true, even_if_empty = false;
   bool folded = false;                        // on the page

@@ -158,7 +158,8 @@ std::vector<std::string> limits_notes(const std::vector<Verdict>& verdicts, cons
           fmt::format("the torque of \"{}\", which has play, changes sign at every speed examined: it hammers", name));
   }
   if (!verdicts.empty())
-    notes.push_back(fmt::format("limits: steady loads of {}; peaks {}", loads.words,
+    notes.push_back(fmt::format("limits: {}{}; peaks {}", loads.found ? "steady loads of " : "no steady loads, as ",
+                                loads.words,
                                 run_up.found ? "of " + run_up.words : "without a run-up: " + run_up.words));
   return notes;
 }

@@ -320,6 +320,18 @@ Claims limit_claims(const std::vector<Verdict>& verdicts, const std::string& wha
   return claims;
 }
 
+void hold_under(const std::string& condition, Claims& claims) {
+  for (Claim& claim : claims) {
+    if (claim.predicate != Predicate::limit_held || !claim.in_conclusion || !claim.variant.empty()) continue;
+    for (const char* first : {"All ", "Both ", "Its ", "The one "})  // sum_up()
+      if (claim.text.starts_with(first)) {
+        claim.text[0] = static_cast<char>(claim.text[0] - 'A' + 'a');
+        claim.text = capitalised(condition) + " " + claim.text;
+        break;
+      }
+  }
+}
+
 Estimate start_torque(const DriveLimits& limits, const Estimate& peak, const Estimate& mean) {
   const double whole = std::abs(peak.value);
   if (!std::isfinite(whole)) return {whole, 0};

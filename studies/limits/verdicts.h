@@ -89,6 +89,10 @@ std::string sentence_of(const std::vector<Verdict>& verdicts, const std::string&
 
 // One claim per verdict; the worst one has the sentence for all, which is in the conclusion.
 Claims limit_claims(const std::vector<Verdict>& verdicts, const std::string& what);
+
+// For the sentence that limits hold, beside another that one is exceeded: "with every cylinder firing" begins it.
+void hold_under(const std::string& condition, Claims& claims);
+
 // "it holds from diameter = 87.92 mm on, and does not 1 % below"; without trial "by an estimate it holds …". `up_to`:
 // "up to" instead of "from … on".
 std::string in_words(const Remedy& remedy, bool up_to = false);

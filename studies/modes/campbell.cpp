@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "engine/scene/text.h"
+#include "studies/claims/ranges.h"
 #include "studies/findings/plots.h"
 #include "studies/findings/rows.h"
 #include "studies/modes/critical_speeds.h"
@@ -362,8 +363,12 @@ Plot waterfall_plot(const ModesStudy& m, const TorqueHistory& h) {
 
 Rows critical_table(const ModesStudy& m) {
   const std::vector<std::size_t> severest = severest_critical(m, critical_shown);
-  return table_of("critical_speeds", "Critical speeds, the severest first", m.critical)
-      .headed(fmt::format("critical speeds ({} of {}, the severest first)", severest.size(), m.critical.size()))
+  return table_of("critical_speeds",
+                  fmt::format("Critical speeds within {}, the severest first",
+                              speed_range(m.slowest, m.fastest, m.speed_unit)),
+                  m.critical)
+      .headed(fmt::format("critical speeds within {} ({} of {}, the severest first; --range takes others)",
+                          speed_range(m.slowest, m.fastest, m.speed_unit), severest.size(), m.critical.size()))
       .text_in(0)
       .people_see(severest)
       .column("speed", fmt::format("order meets mode at [{}]", m.speed_unit.name), &CriticalSpeed::speed,

@@ -321,6 +321,24 @@ std::vector<double> frequencies_with(const Tolerance& t, double value, Scene sce
   return omega;
 }
 
+// By coordinate, the components on its shaft whose torque or inertia depends on the angle; without any, the shaft.
+std::vector<std::string> names_of_exciters(const ModesStudy& found) {
+  const Model& m = *found.drive.model;
+  std::vector<std::string> names = found.shaft_names;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto& nodes = m.shafts[static_cast<std::size_t>(found.drive.shaft[i])].nodes;
+    std::vector<std::string> on_shaft;
+    for (const Network::ShaftElement& e : m.network.elements)
+      if (e.element->is.uses_angle && std::find(nodes.begin(), nodes.end(), e.node) != nodes.end() &&
+          std::find(on_shaft.begin(), on_shaft.end(), e.component) == on_shaft.end())
+        on_shaft.push_back(e.component);
+    if (on_shaft.size() == 1) names[i] = on_shaft.front();
+    if (on_shaft.size() == 2) names[i] = on_shaft[0] + " and " + on_shaft[1];
+    if (on_shaft.size() > 2) names[i] = fmt::format("{} and {} more", on_shaft[0], on_shaft.size() - 1);
+  }
+  return names;
+}
+
 }  // namespace
 
 void find_margins(const Scene& scene, const Effects& effects, const ModesOptions& options, ModesStudy& found) {
@@ -328,7 +346,7 @@ void find_margins(const Scene& scene, const Effects& effects, const ModesOptions
   const bool by_shaft = found.drive.size() == static_cast<Eigen::Index>(found.shaft_names.size());
   const double speed = std::copysign(found.fastest, found.drive.at.speed);
   m.lines = excitation_lines(*found.drive.model, found.excitations, speed,
-                             by_shaft ? found.shaft_names : std::vector<std::string>{}, found.notes);
+                             by_shaft ? names_of_exciters(found) : std::vector<std::string>{}, found.notes);
   for (const Mode& mode : found.modes)
     if (!mode.of_internal_states)
       m.modes.push_back(

@@ -66,6 +66,14 @@ void judge_history(ModesStudy& found) {
   }
 }
 
+// A machine that comes to rest or runs away has no steady motion to be judged.
+void leave_steady_limits(const std::string& why, SteadyLoads& loads, std::vector<Verdict>& verdicts) {
+  loads.found = false, loads.words = why;
+  for (Verdict& v : verdicts)
+    if (v.load_case == load_case::steady)
+      v = not_assessed(v.component, v.requirement, v.limit, v.unit, load_case::steady, why);
+}
+
 }  // namespace
 
 JointLoad load_of(const JointResponse& response) {
@@ -118,6 +126,7 @@ void judge_limits(const MachineAndOrbit& here, const std::optional<MachineAndOrb
       loads.words = fmt::format("the steady motion, at {}: {}", found.speed_unit.text(kept.speed, 5), orbit.words);
     }
     found.verdicts = judge(found.limited, loads, run_up, passing_of(found), found.speed_unit);
+    if (at_orbit && (found.comes_to_rest || found.runs_away)) leave_steady_limits(orbit.words, loads, found.verdicts);
   }
   judge_history(found);
   for (std::string& note : limits_notes(found.verdicts, found.barred, found.limited, loads, run_up))

@@ -152,6 +152,10 @@ class Study {
     if (samples_) point.orbit = samples_->mean;
     if (rest_ && !options_.speed) point.orbit = rest_;
     if (!options_.speed && !point.orbit && !vibrates_about_rest()) point.speed = balanced_speed(model_);
+    if (!options_.speed && !point.orbit && !vibrates_about_rest() && orbit_) {
+      found_.comes_to_rest = orbit_->kind == Orbit::Kind::at_rest;
+      found_.runs_away = orbit_->kind == Orbit::Kind::runaway;
+    }
     BaseMotion base(model_, point);
     if (!point.orbit && base.equations().has_followers())
       throw std::invalid_argument(

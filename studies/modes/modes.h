@@ -146,11 +146,12 @@ struct ModesStudy : SceneStudy {
   std::vector<CriticalSpeed> not_kept;  // at which the machine does not remain by itself
   Margins margins;
   std::vector<ParametricZone> zones;
-  SpeedResponse here;                  // at the operating point
-  std::optional<SpeedResponse> cycle;  // actual torques of the joints there, from the full equations
-  double cycle_order = 1;              // of its first harmonic
-  std::string orbit;                   // motion that the scene's own start leads to, in words
-  bool start_unknown = false;          // no motion was found within a fifth of the budget
+  SpeedResponse here;                             // at the operating point
+  std::optional<SpeedResponse> cycle;             // actual torques of the joints there, from the full equations
+  double cycle_order = 1;                         // of its first harmonic
+  std::string orbit;                              // motion that the scene's own start leads to, in words
+  bool start_unknown = false;                     // no motion was found within a fifth of the budget
+  bool comes_to_rest = false, runs_away = false;  // that motion: no steady one has limits
   std::vector<Rattle> rattles;
   bool keeps_its_speed = true;        // no deviation grows at the operating point
   std::vector<SpeedResponse> sweep;   // over the range

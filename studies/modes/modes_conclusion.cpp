@@ -9,6 +9,7 @@
 #include "studies/findings/figure_text.h"
 #include "studies/modes/drive_limits.h"
 #include "studies/modes/modes_plots.h"
+#include "studies/shafts/stress_findings.h"
 
 namespace kurbel::modes {
 namespace {
@@ -69,7 +70,7 @@ std::string amplitude_at_that_speed(const ModesStudy& m) {
   const SpeedResponse& said = m.cycle ? *m.cycle : m.here;
   const std::size_t j = most_loaded_joint(m, said);
   const JointResponse& joint = said.joints[j];
-  std::string text = fmt::format("at {} the torque in \"{}\" {}", m.speed_unit.text(std::abs(m.drive.at.speed), 5),
+  std::string text = fmt::format("at {} the torque in \"{}\" {}", m.speed_unit.text(m.drive.at.speed, 5),
                                  m.joint_names[j], oscillation(joint));
   const double linear = m.here.joints[j].peak;
   if (m.cycle && std::abs(linear - joint.peak) > 0.1 * joint.peak)
@@ -180,6 +181,26 @@ std::string conclusion_of(const ModesStudy& m) {
   if (m.modes.size() > natural) text += "; " + internal_mode(m, m.modes[natural]);
   if (is_forced(m)) text += "; " + amplitude_at_that_speed(m);
   return text;
+}
+
+std::optional<Claim> motion_claim(const ModesStudy& m) {
+  if (!m.comes_to_rest && !m.runs_away) return {};
+  return claimed(m.comes_to_rest ? Predicate::at_rest : Predicate::not_steady_yet,
+                 capitalised(fmt::format("{}; what follows is of the machine held at {}", m.orbit,
+                                         m.speed_unit.text(std::abs(m.drive.at.speed), 4))),
+                 m.link);
+}
+
+void name_condition_of_limits(Claims& claims) {
+  std::string condition;
+  for (const Claim& claim : claims) {
+    if (claim.predicate != Predicate::limit_exceeded) continue;
+    const std::string by = !claim.variant.empty()                    ? "without the scene's cases"
+                           : claim.load_case.starts_with(misfire_of) ? "with every cylinder firing"
+                                                                     : "at its operating speeds";
+    if (condition.find(by) == std::string::npos) condition += (condition.empty() ? "" : ", ") + by;
+  }
+  if (!condition.empty()) hold_under(condition, claims);
 }
 
 }  // namespace kurbel::modes

@@ -158,10 +158,11 @@ Rows internal_table(const ModesStudy& m) {
 Rows response_table(const ModesStudy& m) {
   const auto of = [&](auto member) { return [&m, member](std::size_t j) { return m.here.joints[j].*member; }; };
   const auto order = [&](std::size_t j) { return m.excitations.order(m.here.joints[j].dominant); };
-  auto table =
-      table_of("response", fmt::format("At {} of {}", m.speed_unit.text(std::abs(m.drive.at.speed), 5), m.link),
-               numbers_below(m.here.joints.size()));
-  table.headed("forced response at that speed")
+  auto table = table_of("response",
+                        fmt::format("At {} of {}; amplitude: largest deviation from the mean",
+                                    m.speed_unit.text(m.drive.at.speed, 5), m.link),
+                        numbers_below(m.here.joints.size()));
+  table.headed("forced response at that speed; amplitude: largest deviation from the mean")
       .programs_see_first(most_for_programs)
       .people_see_first(is_forced(m) ? responses_shown : 0)
       .column("joint", "joint", [&](std::size_t j) { return m.joint_names[j]; })
@@ -314,7 +315,7 @@ void add_key_figures(Findings& f, const ModesStudy& m) {
   const SpeedResponse& said = m.cycle ? *m.cycle : m.here;
   const std::size_t j = joint_with_largest_amplitude(said);
   if (std::isfinite(said.joints[j].peak))
-    f.key(fmt::format("largest amplitude at {}", m.speed_unit.text(std::abs(m.drive.at.speed), 4)),
+    f.key(fmt::format("largest amplitude at {}", m.speed_unit.text(m.drive.at.speed, 4)),
           {said.joints[j].peak, swing_error(m, j)}, "largest_amplitude", m.joint_names[j], 5);
 }
 
@@ -404,6 +405,7 @@ Findings findings_of(const ModesStudy& m) {
   Findings f = Findings::of(m, point_text(m));
   f.page_title = fmt::format("{}: modes and critical speeds", m.title);
   f.speed_unit = m.speed_unit.name, f.footer = report_footer();
+  add(f.claims, motion_claim(m));
   f.conclude(m.complete, conclusion_of(m));
   for (const std::string& sentence : m.outside_data) f.claim(Predicate::outside_data, capitalised(sentence));
   f.claim(limit_claims(m.verdicts, "limit"));
@@ -430,6 +432,7 @@ Findings findings_of(const ModesStudy& m) {
   if (!m.zones.empty()) f.show(campbell, half_width(m));
   f.say(limits, verdict_table(m.verdicts));
   say_cases(f, cases, m);
+  name_condition_of_limits(f.claims);
   say_stresses(f, stresses, m);
   say_history(f, history, m);
   f.note(notes, m.notes);

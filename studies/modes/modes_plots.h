@@ -23,6 +23,10 @@ double end_of_spectrum(const ModesStudy& study, const AmplitudeSpectrum& spectru
 bool is_forced(const ModesStudy& study);
 // "First mode at 9.78 Hz (ζ = 0.126), second at 482 Hz; at 1500 rpm the torque in "coupling" oscillates by ± 9.9 N·m"
 std::string conclusion_of(const ModesStudy& study);
+// Of a machine that leaves the speed at which it was linearised: it comes to rest or runs away.
+std::optional<Claim> motion_claim(const ModesStudy& study);
+// Where misfiring, a case of the scene or another speed exceeds a limit: limits that hold are those of the drive as it is.
+void name_condition_of_limits(Claims& claims);
 
 // Distribution of a mode's energy, the largest share first; empty if unknown. Internal states of a component count as one.
 struct EnergyStore {

@@ -165,7 +165,7 @@ std::optional<Claim> claim_on(const ShaftStresses& s, const std::vector<std::siz
                        : Predicate::figures_told,
               std::move(text), most->shaft,
               judged ? Evidence{.value = most->stress, .limit = most->stress / use, .unit = "Pa"} : Evidence{});
-  if (claim) claim->load_case = most->misfires.empty() ? load_case::speed_range : "misfire of " + most->misfires;
+  if (claim) claim->load_case = most->misfires.empty() ? load_case::speed_range : misfire_of + most->misfires;
   return claim;
 }
 
@@ -195,7 +195,7 @@ Rows stress_table(const ShaftStresses& s) {
   }
   Rows table = peak_table(s, "shaft_stress", "Vibratory stress of shafts over the speeds",
                           "vibratory stress of shafts over the speeds", std::move(peaks));
-  table.for_people = std::move(reported);
+  table.for_people = std::move(reported), table.whole_in_long_form = true;
   return table;
 }
 
@@ -204,9 +204,9 @@ Rows misfire_table(const ShaftStresses& s) {
   std::vector<std::size_t> worst;
   for (const std::size_t j : judged_shafts(s.joints))
     if (const StressPeak* p = worst_sum(peaks, j)) worst.push_back(static_cast<std::size_t>(p - peaks.data()));
-  Rows table = peak_table(s, "misfires", "Vibratory stress of shafts with one cylinder misfiring, the worst of all", "",
-                          std::move(peaks));
-  table.terminal = false, table.for_people = std::move(worst);
+  Rows table = peak_table(s, "misfires", "Vibratory stress of shafts with one cylinder misfiring, the worst of all",
+                          "vibratory stress of shafts with one cylinder misfiring", std::move(peaks));
+  table.for_people = std::move(worst), table.whole_in_long_form = true;
   return table;
 }
 

@@ -11,6 +11,9 @@
 
 namespace kurbel {
 
+// Begins the load case of a claim on a misfiring cylinder.
+inline const std::string misfire_of = "misfire of ";
+
 // On the highest utilisation, then on every other shaft whose limit is exceeded: "vibratory stress in "crank_end": 104 MPa at
 // 59.94 rpm, 231 % of the limit for continuous running"; empty: nothing to report.
 Claims stress_claims(const ShaftStresses& s);

@@ -112,5 +112,27 @@ TEST(Cases, ClaimWhatTheDriveAsItIsDoesNotShow) {
                           [](const Claim& c) { return c.predicate == Predicate::margin_kept; }));
 }
 
+// Nothing drives: the machine comes to rest, which is said first, and no limit of a steady motion is judged.
+TEST(Cases, AMachineThatComesToRestHasNoSteadyLimits) {
+  std::string text = two_discs;
+  const auto drop = [&](const std::string& begin) {
+    const std::size_t at = text.find(begin);
+    text.erase(at, text.find('\n', at) + 1 - at);
+  };
+  drop("drive = "), drop("pulse = ");
+  text.replace(text.find("vibratory_torque"), 16, "nominal_torque = \"30 N*m\", vibratory_torque");
+  const Scene scene = test::scene_from(text);
+  const Inquiry inquiry{.scene = scene, .text = scene.text, .file = scene.file, .settings = {}};
+  const Findings f = question_named("modes").answer(inquiry, {});
+  const std::string said = f.conclusion();
+  EXPECT_TRUE(said.starts_with("The machine slows down to rest")) << said;
+  EXPECT_EQ(said.find("hold,"), std::string::npos) << said;
+  for (const Claim& c : f.claims)
+    EXPECT_FALSE(c.load_case == load_case::steady && c.predicate == Predicate::limit_held) << c.text;
+  // Held at a speed it has a steady motion.
+  const std::string held = question_named("modes").answer(inquiry, {{"speed", "900 rpm"}}).conclusion();
+  EXPECT_NE(held.find("hold, the nearest"), std::string::npos) << held;
+}
+
 }  // namespace
 }  // namespace kurbel::cases_test

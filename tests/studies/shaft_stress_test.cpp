@@ -12,6 +12,7 @@
 #include <numbers>
 #include <string>
 
+#include "studies/findings/output.h"
 #include "studies/limits/ratings.h"
 #include "studies/modes/modes.h"
 #include "studies/shafts/stress_findings.h"
@@ -351,6 +352,43 @@ TEST(Misfire, EveryCylinderOfTheShipsEngineIsTakenInTurn) {
   EXPECT_EQ(m.stresses.misfires.size(), 6u);
   options.misfires = false;
   EXPECT_TRUE(find_modes(scene, scene.effects, options).stresses.misfires.empty());
+}
+
+// The limits are kept with every cylinder firing, and exceeded as one misfires: the sentence names its condition.
+TEST(Misfire, ThatExceedsALimitIsNoPartOfTheLimitsThatHold) {
+  const Scene scene = test::scene_from(engine(""));
+  ModesStudy m = find_modes(scene, scene.effects, {.slowest = 8, .fastest = 48, .orders = 12});
+  // This engine is loaded most with all cylinders: the other way round it is the case to be named.
+  m.stresses.misfires.resize(1);
+  std::swap(m.stresses.normal.sweep, m.stresses.misfires.front().sweep);
+  std::swap(m.stresses.normal.fundamental, m.stresses.misfires.front().fundamental);
+  double all = 0, one = 0;  // [Pa]
+  for (const StressPeak& p : stress_peaks(m.stresses.joints, m.stresses.normal)) all = std::max(all, p.stress);
+  for (const Firing& firing : m.stresses.misfires)
+    for (const StressPeak& p : stress_peaks(m.stresses.joints, firing)) one = std::max(one, p.stress);
+  ASSERT_GT(one, 1.1 * all);
+  const double between = 0.5 * (all + one);
+  for (LimitedJoint& joint : m.stresses.joints) joint.limits.shaft = {}, joint.limits.shaft.vibratory = between;
+  m.verdicts = {Verdict{{all, 0}, "shaft", requirement::vibratory_stress, between, "Pa", ""}};
+  const std::string text = findings_of(m).conclusion();
+  EXPECT_NE(text.find("With every cylinder firing its limit holds"), std::string::npos) << text;
+  m.stresses.misfires.clear();
+  const std::string alone = findings_of(m).conclusion();
+  EXPECT_NE(alone.find("Its limit holds"), std::string::npos) << alone;
+}
+
+// --all: every row of every table, those of each misfiring cylinder among them.
+TEST(Misfire, IsOnTheTerminal) {
+  const Scene scene = test::scene_from(engine(""));
+  const Findings f = findings_of(find_modes(scene, scene.effects, {.slowest = 8, .fastest = 48, .orders = 12}));
+  const std::string brief = terminal_text(f, false), whole = terminal_text(f, true);
+  const auto rows = [](const std::string& text) {
+    int count = 0;
+    for (std::size_t at = 0; (at = text.find("cylinder ", at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  EXPECT_EQ(rows(brief) - rows(f.conclusion()), 2) << brief;  // the heading, and the worst
+  EXPECT_EQ(rows(whole) - rows(f.conclusion()), 4) << whole;
 }
 
 }  // namespace
