@@ -16,6 +16,7 @@
 #include "studies/findings/figure_text.h"
 #include "studies/question/question.h"
 #include "studies/reduce/reduce.h"
+#include "studies/run/compare.h"
 #include "studies/train_report/markdown.h"
 #include "studies/train_report/sections.h"
 
@@ -100,10 +101,11 @@ class TrainReport {
     f.claim(claims_of(*parts_));
     if (f.claims.empty()) f.conclude(false, "Nothing could be assessed");
     std::vector<Chapter> chapters;
-    for (const SectionName& name : section_names) chapters.push_back(f.chapter(name.title));
+    for (std::size_t s = 0; s < section_names.size(); ++s)
+      chapters.push_back(f.chapter(title_of(static_cast<Place>(s), elastic_)));
     const auto chapter = [&](Place s) { return chapters[static_cast<std::size_t>(s)]; };
     const std::vector<std::string> open_points = open_list();
-    if (wants(Place::scope)) say_scope(f, chapter(Place::scope), open_points);
+    if (wants(Place::scope)) say_scope(f, chapter(Place::scope), open_points, verdict_in_words(f.claims));
     for (const Part& part : *parts_) {
       if (!part.assessed()) continue;
       if (part.question == "compare" && wants(Place::time)) say_figures(part, f, chapter(Place::time));
@@ -112,6 +114,9 @@ class TrainReport {
     if (wants(Place::train)) say_train(f, chapter(Place::train));
     if (wants(Place::input))
       f.show(chapter(Place::input), Text{.title = inquiry_.scene.file, .body = inquiry_.scene.text, .verbatim = true});
+    for (std::size_t s = 0; s < section_names.size(); ++s)
+      if (wanted_[s] && is_empty(f, chapters[s]))
+        f.show(chapters[s], Text{.title = "", .body = why_empty(*parts_, static_cast<Place>(s))});
     state(out, open_points);
     out.study = parts_;
     return out;
@@ -121,6 +126,7 @@ class TrainReport {
   bool wants(Place s) const { return wanted_[static_cast<std::size_t>(s)]; }
 
   // First `compare`, which draws the machine, then `modes`, which assesses it: the order of findings within a section.
+  // A machine without an elastic part has nothing to compare with: `run`.
   void ask() {
     GivenOptions of_modes;
     for (const std::string& name : asked_.cases) of_modes.emplace_back("cases", name);
@@ -129,8 +135,10 @@ class TrainReport {
     };
     if (any({Place::scope, Place::modes, Place::margins, Place::response, Place::assumptions}))
       parts_->push_back(asked("modes", inquiry_, of_modes));
+    if (!elastic_ && !parts_->empty() && parts_->front().why.starts_with("nothing is elastic"))
+      parts_->front().why = nothing_elastic;
     if (any({Place::scope, Place::train, Place::response, Place::time, Place::assumptions}))
-      parts_->push_back(asked("compare", inquiry_, {}));
+      parts_->push_back(asked(elastic_ ? "compare" : "run", inquiry_, {}));
   }
 
   void open(Findings& f) const {
@@ -193,9 +201,10 @@ class TrainReport {
     return lines;
   }
 
-  void say_scope(Findings& f, Chapter in, const std::vector<std::string>& open_points) const {
+  void say_scope(Findings& f, Chapter in, const std::vector<std::string>& open_points,
+                 const std::string& verdict) const {
     const Scene& scene = inquiry_.scene;
-    Lines lines = {{"machine", scene.heading()}, {"scene", scene.file}};
+    Lines lines = {{"machine", scene.heading()}, {"scene", scene.file}, {"verdict", verdict}};
     if (!inquiry_.settings.empty())
       lines.push_back({"set beside it", fmt::format("{}", fmt::join(inquiry_.settings, "; "))});
     if (const double fastest = number_in(range(), "fastest"); fastest > 0) {
@@ -274,6 +283,7 @@ class TrainReport {
   const Inquiry& inquiry_;
   const ReportRequest& asked_;
   std::vector<bool> wanted_;
+  bool elastic_ = is_elastic(*compile(inquiry_.scene, models_to_compare(inquiry_.scene).b));
   std::shared_ptr<std::vector<Part>> parts_ = std::make_shared<std::vector<Part>>();
 };
 

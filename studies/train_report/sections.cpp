@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 
+#include "studies/claims/headline.h"
 #include "studies/limits/verdicts.h"
 #include "studies/modes/modes.h"
 #include "studies/run/run_findings.h"
@@ -70,18 +71,49 @@ void omit_judged_limits(const std::vector<Part>& parts, Rows& limits) {
   limits.for_people = std::move(shown), limits.title += " in the simulated run";
 }
 
-// Limits of all parts that none assesses.
-std::vector<std::string> open_limits(const std::vector<Part>& parts, const Part& part) {
-  std::vector<std::string> lines;
+// Limits that a part leaves open and no part assesses; or those that another part assesses.
+std::vector<Verdict> open_limits(const std::vector<Part>& parts, const Part& part, bool judged = false) {
+  std::vector<Verdict> list;
   for (const char* key : limit_keys) {
     const Rows* rows = rows_of(part, key);
     for (std::size_t i = 0; rows && i < rows->count; ++i)
-      if (is_open(*rows, i) && !is_judged(parts, *rows, i))
-        lines.push_back(fmt::format("{}, {} ({}): {}", word_at(*rows, "component", i), word_at(*rows, "requirement", i),
-                                    word_at(*rows, "load_case", i), word_at(*rows, "note", i)));
+      if (is_open(*rows, i) && is_judged(parts, *rows, i) == judged)
+        list.push_back(kurbel::not_assessed(word_at(*rows, "component", i), word_at(*rows, "requirement", i), 0, "",
+                                            word_at(*rows, "load_case", i).c_str(), word_at(*rows, "note", i)));
   }
-  return lines;
+  return list;
 }
+
+constexpr std::string_view not_assessed_words = "not assessed: ";  // verdicts.h: sentence_of
+
+void erase_words(const std::string& words, std::string& text) {
+  if (const std::size_t at = text.find(words); at != std::string::npos) text.erase(at, words.size());
+}
+
+// A claim on limits with those alone not assessed that are left `open` by all parts; empty: it is on a `judged` one.
+std::optional<Claim> with_open(const std::vector<Verdict>& open, const std::vector<Verdict>& judged, Claim claim) {
+  const std::string left = sentence_of(open, "");
+  const std::size_t cut = claim.text.find("; " + std::string(not_assessed_words));
+  if (cut != std::string::npos) {
+    claim.text.resize(cut);
+    if (!left.empty()) claim.text += "; " + left;
+    if (!left.empty()) return claim;
+    for (const char* words : {" that is assessed", " that are assessed"}) erase_words(words, claim.text);
+    return claim;
+  }
+  if (claim.predicate != Predicate::not_assessed) return claim;
+  if (claim.text.starts_with(capitalised(std::string(not_assessed_words)))) {
+    if (open.empty()) return {};
+    claim.text = capitalised(left), claim.of = open.front().component, claim.load_case = open.front().load_case;
+    return claim;
+  }
+  const bool is_judged = std::any_of(judged.begin(), judged.end(), [&](const Verdict& v) {
+    return sentence_of({v}, "") == std::string(not_assessed_words) + claim.text.substr(0, claim.text.rfind(": "));
+  });
+  return is_judged ? std::nullopt : std::optional(claim);
+}
+
+bool is_bad_limit(const Claim& claim) { return claim.predicate == Predicate::limit_exceeded; }
 
 void add_notes(const Part& part, std::vector<std::string>& lines) {
   static const std::string begin = "not assessed";
@@ -125,6 +157,7 @@ std::optional<Place> section_of(const std::string& question, const std::string& 
   const Rows* rows = std::get_if<Rows>(&statement.what);
   if (rows && rows->key == "ratings") return Place::response;
   if (rows && rows->key == "comparison") return Place::input;
+  if (rows && question == "run" && !rows->means.empty()) return Place::input;  // all figures
   if (chapter == "Scene") return {};
   if (chapter == "Notes") return Place::assumptions;
   if (question == "modes") {
@@ -161,10 +194,43 @@ void take(const std::vector<Part>& parts, const Part& part, const std::vector<bo
   }
 }
 
+std::string title_of(Place section, bool elastic) {
+  const std::string title = section_names[static_cast<std::size_t>(section)].title;
+  return section == Place::time && !elastic ? title.substr(0, title.find(';')) : title;
+}
+
+std::string verdict_in_words(const Claims& claims) {
+  Claims of_limits;
+  std::copy_if(claims.begin(), claims.end(), std::back_inserter(of_limits),
+               [](const Claim& claim) { return claim.topic() == Topic::bears; });
+  const std::string verdict = in_one_line(concluded(std::move(of_limits)));
+  return verdict.empty() ? "none is possible: the scene states no limit that this report assesses" : verdict;
+}
+
+bool is_empty(const Findings& report, Chapter chapter) {
+  return std::none_of(report.statements.begin(), report.statements.end(), [&](const Statement& statement) {
+    const Rows* rows = std::get_if<Rows>(&statement.what);
+    const Sentences* words = std::get_if<Sentences>(&statement.what);
+    const bool shown = rows    ? rows->page && rows->shown_to_people()
+                       : words ? words->page && !words->lines.empty()
+                               : !std::holds_alternative<Field>(statement.what);
+    return statement.chapter == chapter && shown;
+  });
+}
+
+std::string why_empty(const std::vector<Part>& parts, Place section) {
+  const bool of_modes = section == Place::modes || section == Place::margins || section == Place::response;
+  for (const Part& part : parts)
+    if (!part.assessed() && (part.question == "modes") == of_modes)
+      return fmt::format("{}: {}.", part.why == nothing_elastic ? "Does not apply" : "Not assessed", part.why);
+  return "Nothing to report.";
+}
+
 Claims claims_of(const std::vector<Part>& parts) {
-  static const std::string open = "; not assessed: ";  // verdicts.h: sentence_of
+  std::vector<Claims> of_parts;
   Claims all;
   for (const Part& part : parts) {
+    Claims& own = of_parts.emplace_back();
     if (!part.assessed()) continue;
     // Limits that another part has judged alike are reported once.
     const bool alike = std::all_of(part.output.claims.begin(), part.output.claims.end(), [&](const Claim& claim) {
@@ -174,12 +240,22 @@ Claims claims_of(const std::vector<Part>& parts) {
                       reported.load_case == claim.load_case;
              });
     });
-    for (Claim claim : part.output.claims) {
+    const std::vector<Verdict> open = open_limits(parts, part), judged = open_limits(parts, part, true);
+    for (const Claim& claim : part.output.claims) {
       if (alike && claim.predicate == Predicate::limit_held) continue;
-      const std::size_t cut = claim.text.find(open);
-      if (cut != std::string::npos && open_limits(parts, part).empty()) claim.text.resize(cut);
-      add(all, std::move(claim));
+      add(own, with_open(open, judged, claim));
     }
+    all.insert(all.end(), own.begin(), own.end());
+  }
+  // That all limits hold is said of one part where another exceeds some.
+  all.clear();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const bool others = std::any_of(of_parts.begin(), of_parts.end(), [&](const Claims& claims) {
+      return &claims != &of_parts[i] && std::any_of(claims.begin(), claims.end(), is_bad_limit);
+    });
+    if (others)
+      hold_under(parts[i].question == "modes" ? "in the frequency domain" : "in the simulated run", of_parts[i]);
+    all.insert(all.end(), of_parts[i].begin(), of_parts[i].end());
   }
   return all;
 }
@@ -192,9 +268,8 @@ std::vector<std::string> not_assessed(const std::vector<Part>& parts) {
       continue;
     }
     if (!part.output.complete) lines.push_back(fmt::format("{}: {}", part.question, part.output.diagnosis));
-    for (const Claim& claim : part.output.claims)
-      if (claim.predicate == Predicate::not_assessed && claim.in_conclusion) lines.push_back(claim.text);
-    for (std::string& line : open_limits(parts, part)) lines.push_back(std::move(line));
+    for (const Verdict& open : open_limits(parts, part))
+      lines.push_back(fmt::format("{}, {} ({}): {}", open.component, open.requirement, open.load_case, open.note));
     add_margins(part, lines);
     add_notes(part, lines);
     if (const Value* cases = reported(part, "cases"))

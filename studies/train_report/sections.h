@@ -25,6 +25,9 @@ inline constexpr std::array<SectionName, 8> section_names = {{
     {"input", "8 Appendix: all figures, numerics, input"},
 }};
 
+// Without an elastic part there is no elastic machine to set against the rigid one.
+std::string title_of(Place section, bool elastic);
+
 // The answer to a question, or why there is none.
 struct Part {
   std::string question;  // "modes"
@@ -45,6 +48,14 @@ Claims claims_of(const std::vector<Part>& parts);
 
 // One line each: what the parts could not assess, and what the scene does not specify.
 std::vector<std::string> not_assessed(const std::vector<Part>& parts);
+
+// The sentences of a conclusion on limits and margins, or that there is none.
+std::string verdict_in_words(const Claims& claims);
+
+// For a section without a statement.
+inline constexpr const char* nothing_elastic = "the machine has no elastic part";
+bool is_empty(const Findings& report, Chapter chapter);
+std::string why_empty(const std::vector<Part>& parts, Place section);
 
 // The value of a part for programs under a key; null: none.
 const Value* reported(const Part& part, const std::string& key);

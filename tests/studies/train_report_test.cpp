@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "studies/findings/figure_text.h"
+#include "studies/limits/limits_findings.h"
 #include "studies/question/question.h"
 #include "studies/train_report/sections.h"
 #include "tests/support/scenes.h"
@@ -118,6 +119,46 @@ TEST(TrainReport, ContradictsItselfInNoLimit) {
   EXPECT_EQ(said.find("that is assessed"), std::string::npos) << said;
 }
 
+// What the run leaves open and `modes` assesses is not "not assessed", neither in the conclusion nor in the list.
+TEST(TrainReport, CallsNoLimitOpenThatOneOfItsPartsAssesses) {
+  using train_report::Part;
+  const auto part = [](const char* question, const char* key, const std::vector<Verdict>& verdicts) {
+    Part made{question};
+    Findings& f = made.output;
+    Rows rows = verdict_table(verdicts);
+    rows.key = key;
+    f.say(f.chapter("limits"), std::move(rows));
+    f.claim(limit_claims(verdicts, "limit"));
+    return made;
+  };
+  const auto open = [](const char* requirement) {
+    return not_assessed("shaft", requirement, 30e6, "Pa", load_case::steady, "kurbel modes");
+  };
+  Verdict held{{10e6, 0}, "shaft", requirement::continuous, 30e6, "Pa", ""};
+  held.load_case = load_case::steady;
+  const auto text_of = [](const std::vector<Part>& parts) {
+    std::string text;
+    for (const std::string& sentence : concluded(train_report::claims_of(parts))) text += sentence + "\n";
+    for (const std::string& line : train_report::not_assessed(parts)) text += line + "\n";
+    return text;
+  };
+  const Part modes = part("modes", "verdicts", {held});
+  const std::string judged = text_of({modes, part("compare", "ratings", {open(requirement::continuous)})});
+  EXPECT_EQ(judged, "Its limit holds, \"shaft\", UR M68, continuous (steady): 33 % of the limit.\n");
+  const std::string one = text_of(
+      {modes, part("compare", "ratings", {open(requirement::continuous), open(requirement::vibratory_stress)})});
+  EXPECT_NE(one.find("Not assessed: \"shaft\", vibratory stress (steady)."), std::string::npos) << one;
+  EXPECT_EQ(one.find("more"), std::string::npos) << one;
+  Verdict other = held;
+  other.component = "coupling", other.load_case = load_case::run;
+  const std::string mixed = text_of({modes, part("compare", "ratings", {other, open(requirement::continuous)})});
+  EXPECT_NE(mixed.find("The one limit holds"), std::string::npos) << mixed;
+  EXPECT_EQ(mixed.find("ssessed"), std::string::npos) << mixed;
+  other.value = 40e6;
+  const std::string beyond = text_of({modes, part("compare", "ratings", {other})});
+  EXPECT_NE(beyond.find("In the frequency domain its limit holds"), std::string::npos) << beyond;
+}
+
 TEST(TrainReport, SaysWhatWasNotAssessed) {
   const Asked asked;
   const auto open = [](const StudyOutput& output) {
@@ -144,6 +185,29 @@ run = { until = "1 s" }
   EXPECT_TRUE(says(lines, "range of operating speeds"));
   EXPECT_TRUE(says(lines, "the scene names none ([[case]])"));
   EXPECT_THROW(asked.answer("report", {{"sections", "margin"}}), std::invalid_argument);
+}
+
+// Nothing is elastic: no comparison with an elastic machine, no model of that name, and a word for every empty section.
+TEST(TrainReport, OfAMachineWithoutElasticPartComparesNothing) {
+  const Scene rigid = test::scene_from(R"(
+line = ["motor", "fan"]
+motor = { kind = "torque source", torque = "20 N*m", inertia = "1 kg*m2" }
+fan = { kind = "load", damping = "0.2 N*m*s/rad", inertia = "1 kg*m2" }
+run = { until = "1 s" }
+)");
+  const StudyOutput output =
+      question_named("report").answer({.scene = rigid, .text = rigid.text, .file = rigid.file, .settings = {}}, {});
+  const std::string& markdown = output.files.front().second;
+  for (const char* words : {"against elastic", "elastic machine |", "Same model", "same model", "Both models"})
+    EXPECT_EQ(markdown.find(words), std::string::npos) << words;
+  EXPECT_NE(markdown.find("| verdict | none is possible: the scene states no limit"), std::string::npos);
+  const Report page = output.report();
+  ASSERT_EQ(page.sections.size(), train_report::section_names.size());
+  for (const ReportSection& section : page.sections) EXPECT_FALSE(section.cards.empty()) << section.title;
+  const Text* const modes = std::get_if<Text>(&page.sections[2].cards.front());
+  ASSERT_TRUE(modes);
+  EXPECT_EQ(modes->body, "Does not apply: the machine has no elastic part.");
+  EXPECT_TRUE(Json::parse(output.json()).contains("run"));
 }
 
 // Of a customer's report: no hint at an option, no more than four digits in its tiles.
