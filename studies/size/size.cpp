@@ -12,6 +12,7 @@
 #include "engine/orbit/default_moment.h"
 #include "engine/scene/units.h"
 #include "engine/values/dense_tables.h"
+#include "mechanisms/reduced/mechanism.h"
 #include "studies/size/reach_sized.h"
 #include "studies/steady/cycle_search.h"
 #include "studies/validity/substitutes.h"
@@ -36,6 +37,7 @@ class Sizer : MachineOnBasis {
     s_.basis = choose_basis(scene_, options_.at, options_.basis);
     s_.is_of(scene);
     s_.link = model().node_label(model().reduction_node);
+    s_.link_is_crank = find_mechanism(model().network, component_of(model(), model().reduction_node)) != nullptr;
     s_.diagram_length = options.diagram_length;
   }
 

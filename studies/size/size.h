@@ -76,6 +76,7 @@ struct Sizing : SceneStudy {
   std::vector<SizeMethod> methods;  // Wittenbauer, Mertsalov, without I_em
 
   std::string flywheel;                                              // component
+  bool link_is_crank = true;                                         // else it turns without a mechanism
   bool flywheel_added = false;                                       // the scene has none
   double flywheel_ratio = 1;                                         // its speed over the link's
   double flywheel_now = 0;                                           // in the scene, on its own shaft [kg·m²]

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/numerics/angles.h"
@@ -53,6 +54,8 @@ std::string as_against(double inertia, double other) {
                      : fmt::format("{:.3g} % {}", std::abs(less), less >= 0 ? "less" : "more");
 }
 
+std::string at_link(const Sizing& s) { return s.link_is_crank ? "the crank" : fmt::format("the link \"{}\"", s.link); }
+
 std::string at_motor(const Sizing& s, const DeltaReached& r) {
   return s.motor.empty() || r.model == SizedModel::rigid ? "" : fmt::format(", and {:.4g} at the motor", r.motor.value);
 }
@@ -62,7 +65,8 @@ std::string fluctuation_in_words(const WorkDiagram& d) {
   return d.fluctuation() <= rounding * d.load_work.largest()
              ? std::string("its torques balance at every angle: the energy does not fluctuate")
              : fmt::format("greatest fluctuation of energy {} between {:.5g}° and {:.5g}°",
-                           with_unit(d.fluctuation(), "J"), d.least.x * in_degrees, d.most.x * in_degrees);
+                           with_unit(d.fluctuation(), "J"), std::min(d.least.x, d.most.x) * in_degrees,
+                           std::max(d.least.x, d.most.x) * in_degrees);
 }
 
 }  // namespace
@@ -103,9 +107,9 @@ std::vector<std::string> motions_in_words(const Sizing& s) {
   std::vector<std::string> list;
   for (const SizedModel model : {SizedModel::rigid, SizedModel::elastic})
     if (const DeltaReached* r = s.needed ? reached(s, model) : nullptr; r && !(misses(s) && r == motion_of_machine(s)))
-      list.push_back(fmt::format("{} with {:.4g} kg·m², δ is {:.4g} at the crank{}",
+      list.push_back(fmt::format("{} with {:.4g} kg·m², δ is {:.4g} at {}{}",
                                  model == SizedModel::elastic ? "Simulated elastic" : "Simulated rigid", r->flywheel,
-                                 r->crank.value, at_motor(s, *r)));
+                                 r->crank.value, at_link(s), at_motor(s, *r)));
   return list;
 }
 
@@ -153,9 +157,9 @@ std::optional<Claim> missed_demand(const Sizing& s) {
                                    ? fmt::format("gives {:.4g} kg·m², too small for δ = {:g}:", by_work, s.delta)
                                    : fmt::format("requires no flywheel for δ = {:g}, but", s.delta);
   return claimed(Predicate::demand_missed,
-                 fmt::format("{}the work equation {} simulated {}, δ is {:.4g} at the crank, {:.3g} times that{}{}",
-                             needed, equation, real->model == SizedModel::elastic ? "elastic" : "rigid",
-                             real->crank.value, real->crank.value / s.delta, at_motor(s, *real),
+                 fmt::format("{}the work equation {} simulated {}, δ is {:.4g} at {}, {:.3g} times that{}{}", needed,
+                             equation, real->model == SizedModel::elastic ? "elastic" : "rigid", real->crank.value,
+                             at_link(s), real->crank.value / s.delta, at_motor(s, *real),
                              s.meeting && !real->slips.empty() ? "; " + real->slips : ""),
                  s.link, {.value = real->crank.value, .limit = s.delta, .error = real->crank.error});
 }
