@@ -7,8 +7,10 @@
 #include <string>
 
 #include "engine/orbit/orbit.h"
+#include "studies/cycle/orbit_cycle.h"
 #include "studies/reduce/reduce.h"
 #include "studies/run/run_findings.h"
+#include "tests/published/published.h"
 #include "tests/support/conclusions.h"
 #include "tests/support/scenes.h"
 
@@ -62,10 +64,80 @@ TEST(RepeatedSequence, StepsThatWaitForTheMotionMayTakeLongerThanTheClock) {
     ASSERT_TRUE(orbit.repeats()) << every << orbit.words;
     EXPECT_NEAR(orbit.point.time, period, 1e-8) << every;
     EXPECT_TRUE(has(orbit.words, fmt::format("its steps take longer than every = {}", every))) << orbit.words;
+    const Result r = test::run(machine(fmt::format("every = \"{}\"\n{}", every, by_speed)));
+    EXPECT_NEAR(test::figure(r, "period"), period, 1e-7) << every;
+    EXPECT_TRUE(has(said(r), fmt::format(" instead of {}, as its sequence takes longer", every))) << said(r);
   }
   const Orbit kept = orbit_of(machine(fmt::format("every = \"20 s\"\n{}", by_speed)));
   ASSERT_TRUE(kept.repeats()) << kept.words;
   EXPECT_NEAR(kept.point.time, 20, 1e-9);
+}
+
+// 60 N·m on 2 kg·m², braked with 100 N·m from 24 down to 20 rad/s, and on up to 24 rad/s: 1/3 s.
+std::string between_two_speeds(const std::string& every) {
+  return fmt::format(R"(
+line = ["src", "wheel"]
+src = {{ kind = "torque source", torque = "60 N*m", inertia = "0.1 kg*m2" }}
+wheel = {{ kind = "flywheel", inertia = "1.9 kg*m2" }}
+brake = {{ kind = "brake", on = "wheel", torque = "100 N*m" }}
+[sequence]
+every = "{}"
+steps = [ {{ at = "0 s", set = "brake" }}, {{ speed_below = "20 rad/s", of = "wheel", set = "brake", to = 0 }},
+          {{ speed_above = "24 rad/s", of = "wheel", set = "brake", to = 0 }} ]
+[run]
+start = {{ speed = "24 rad/s" }}
+until = "30 s"
+)",
+                     every);
+}
+
+// From 24 rad/s the steps take 1/3 s; the clock's 0.5 s let it come to 29 rad/s, from where they take 0.58333 s.
+TEST(RepeatedSequence, EverySecondRepetitionIsLate) {
+  const Orbit orbit = orbit_of(between_two_speeds("0.5 s"));
+  ASSERT_TRUE(orbit.repeats()) << orbit.words;
+  EXPECT_NEAR(orbit.point.time, 0.5 + 7.0 / 12, 1e-8) << orbit.words;
+}
+
+// Every repetition is late by 1/30 s: a run has the period that the machine has.
+TEST(RepeatedSequence, ARunHasThePeriodOfLateRepetitions) {
+  const std::string scene = between_two_speeds("0.3 s");
+  EXPECT_NEAR(orbit_of(scene).point.time, 1.0 / 3, 1e-9);
+  for (const char* until : {"6 s", "30 s"}) {
+    const Result r = test::run(test::with(scene, "until = \"30 s\"", fmt::format("until = \"{}\"", until)));
+    EXPECT_TRUE(r.periods.steady) << r.periods.verdict;
+    EXPECT_NEAR(test::figure(r, "period"), 1.0 / 3, 1e-8) << until;
+    EXPECT_NEAR(test::figure(r, "driving_work_per_cycle"), 60 * 22 / 3.0, 1e-5) << until;
+    EXPECT_NEAR(test::figure(r, "delta.src"), 4.0 / 22, 1e-8) << until;
+  }
+}
+
+// 60 − 1.5 ω drives against 16 N·m of the brake on average, and from 10 s on 20 N·m more: ω = 16 rad/s.
+TEST(RepeatedSequence, WhatBeginsLaterBelongsToTheSteadyMotion) {
+  for (const char* begin : {"0 s", "2 s", "10 s"})
+    for (const char* repeats : {"every = \"0.5 s\"", "repeat = true"}) {
+      const bool clocked = repeats[0] == 'e';
+      const Orbit orbit = orbit_of(fmt::format(R"(
+line = ["motor", "wheel"]
+motor = {{ kind = "dc shunt motor", stall_torque = "60 N*m", no_load_speed = "40 rad/s", inertia = "0.1 kg*m2" }}
+wheel = {{ kind = "flywheel", inertia = "1.9 kg*m2" }}
+src = {{ kind = "load", on = "wheel", torque = "20 N*m", start = "{}" }}
+brake = {{ kind = "brake", on = "wheel", torque = "40 N*m" }}
+run = {{ start = {{ speed = "30 rad/s" }}, until = "60 s" }}
+[sequence]
+{}
+steps = [ {{ {}set = "brake" }}, {{ after = "0.2 s", set = "brake", to = 0 }} ]
+)",
+                                               begin, repeats, clocked ? "" : "after = \"0.3 s\", "));
+      ASSERT_TRUE(orbit.repeats()) << begin << repeats << orbit.words;
+      const double off = std::exp(-0.75 * 0.3), on = std::exp(-0.75 * 0.2);  // 2 ω̇ = M − 1.5 ω
+      const double to_off = 40 / 1.5, to_on = 0;
+      // ω after the braking, and before it
+      const double low = (to_on * (1 - on) + on * to_off * (1 - off)) / (1 - on * off);
+      const double high = to_off + (low - to_off) * off;
+      const OrbitCycle cycle = orbit_cycle(orbit, {});
+      EXPECT_NEAR(cycle.mean_speed(), 16, 1e-6) << begin << repeats;
+      EXPECT_NEAR(cycle.mid_speed(), 0.5 * (low + high), 1e-6) << begin << repeats;
+    }
 }
 
 std::string hoist(const std::string& clutch, const std::string& until) {
@@ -94,6 +166,29 @@ TEST(RepeatedSequence, TheEndOfARunWithinABrakingIsNoBrakeThatIsTooWeak) {
     EXPECT_FALSE(has(said(r), "too weak")) << until << said(r);
     EXPECT_TRUE(has(said(r), "runs steadily")) << until << said(r);
   }
+}
+
+// A brake of 100 N·m from 3 s on takes 6 s for 20 kg·m² at 30 rad/s: as long as nothing drives it is not too weak; nor is it
+// against 90 N·m; against 110 N·m it is.
+TEST(RepeatedSequence, ABrakeThatSlowsIsNotTooWeak) {
+  const auto words = [](const std::string& until, const std::string& drive) {
+    return said(test::run(fmt::format(R"(
+line = ["wheel", "x"]
+wheel = {{ kind = "flywheel", inertia = "19 kg*m2" }}
+x = {{ kind = "flywheel", inertia = "1 kg*m2" }}
+brake = {{ kind = "brake", on = "wheel", torque = "100 N*m", start = "3 s" }}
+src = {{ kind = "torque source", on = "x", torque = "{}" }}
+run = {{ start = {{ speed = "30 rad/s" }}, until = "{}" }}
+)",
+                                      drive, until),
+                          false));
+  };
+  for (const char* until : {"3.05 s", "3.5 s", "4 s", "6 s"})
+    for (const char* drive : {"0 N*m", "90 N*m"}) {
+      EXPECT_FALSE(has(words(until, drive), "too weak")) << until << drive << words(until, drive);
+      EXPECT_TRUE(has(words(until, drive), "\"brake\" has not stopped it by the end")) << words(until, drive);
+    }
+  EXPECT_TRUE(has(words("6 s", "110 N*m"), "too weak for what drives")) << words("6 s", "110 N*m");
 }
 
 // 30 N·m against the weight's 36 N·m: the drum sinks while the clutch is closed.
