@@ -105,7 +105,7 @@ class TrainReport {
       chapters.push_back(f.chapter(title_of(static_cast<Place>(s), elastic_)));
     const auto chapter = [&](Place s) { return chapters[static_cast<std::size_t>(s)]; };
     const std::vector<std::string> open_points = open_list();
-    if (wants(Place::scope)) say_scope(f, chapter(Place::scope), open_points, verdict_in_words(f.claims));
+    if (wants(Place::scope)) say_scope(f, chapter(Place::scope), open_points, why_no_verdict(f.claims));
     for (const Part& part : *parts_) {
       if (!part.assessed()) continue;
       if (part.question == "compare" && wants(Place::time)) say_figures(part, f, chapter(Place::time));
@@ -202,9 +202,10 @@ class TrainReport {
   }
 
   void say_scope(Findings& f, Chapter in, const std::vector<std::string>& open_points,
-                 const std::string& verdict) const {
+                 const std::string& no_verdict) const {
     const Scene& scene = inquiry_.scene;
-    Lines lines = {{"machine", scene.heading()}, {"scene", scene.file}, {"verdict", verdict}};
+    Lines lines = {{"machine", scene.heading()}, {"scene", scene.file}};
+    if (!no_verdict.empty()) lines.push_back({"verdict", no_verdict});
     if (!inquiry_.settings.empty())
       lines.push_back({"set beside it", fmt::format("{}", fmt::join(inquiry_.settings, "; "))});
     if (const double fastest = number_in(range(), "fastest"); fastest > 0) {

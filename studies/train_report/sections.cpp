@@ -199,12 +199,10 @@ std::string title_of(Place section, bool elastic) {
   return section == Place::time && !elastic ? title.substr(0, title.find(';')) : title;
 }
 
-std::string verdict_in_words(const Claims& claims) {
-  Claims of_limits;
-  std::copy_if(claims.begin(), claims.end(), std::back_inserter(of_limits),
-               [](const Claim& claim) { return claim.topic() == Topic::bears; });
-  const std::string verdict = in_one_line(concluded(std::move(of_limits)));
-  return verdict.empty() ? "none is possible: the scene states no limit that this report assesses" : verdict;
+std::string why_no_verdict(const Claims& claims) {
+  const bool judged =
+      std::any_of(claims.begin(), claims.end(), [](const Claim& claim) { return claim.topic() == Topic::bears; });
+  return judged ? "" : "none is possible: the scene states no limit that this report assesses";
 }
 
 bool is_empty(const Findings& report, Chapter chapter) {

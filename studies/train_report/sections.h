@@ -49,8 +49,8 @@ Claims claims_of(const std::vector<Part>& parts);
 // One line each: what the parts could not assess, and what the scene does not specify.
 std::vector<std::string> not_assessed(const std::vector<Part>& parts);
 
-// The sentences of a conclusion on limits and margins, or that there is none.
-std::string verdict_in_words(const Claims& claims);
+// Empty: the conclusion states one on limits or margins.
+std::string why_no_verdict(const Claims& claims);
 
 // For a section without a statement.
 inline constexpr const char* nothing_elastic = "the machine has no elastic part";
