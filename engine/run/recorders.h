@@ -154,7 +154,7 @@ class CycleRecorder final : public Observer {
   bool idle() const { return cycle_ == 0 && period_ == 0; }
   std::vector<CycleRecord> cycles_;
   bool goes_on_ = false, of_sequence_ = false;
-  double repetition_ = HUGE_VAL;           // begin of the one under way [s]
+  double repetition_ = 1e300;              // begin of the one under way [s]
   double cycle_ = 0, low_ = 0, high_ = 0;  // the multiples below and above, including the last one passed [rad]
   int sense_ = 0;                          // direction of that passage; 0: none yet
   bool open_ = false;                      // a cycle began at a multiple of its angle
