@@ -145,6 +145,7 @@ class Search {
     if (is_settled() && !aligning && !repeats_freely(m_.scene.sequence, options_.clocked)) look(before, now);
   }
 
+  // In the last period; counted, as it makes the search begin anew.
   bool is_late(const EventLog& events) {
     late_periods_ = options_.clocked && begins_late_in(events, state_, m_.scene.sequence) ? late_periods_ + 1 : 0;
     return late_periods_ > 0;

@@ -1,4 +1,5 @@
-// recurrence.h — events that recur: the times of one kind, and where between those of a period least happens.
+// recurrence.h — events that recur, and where between them least happens; repetitions that are late; how a run that does not
+// repeat ends.
 #pragma once
 
 #include <optional>

@@ -229,7 +229,9 @@ constexpr std::array kinds = {
               "at speeds of the examined range a joint exceeds a limit, or a rule bars them",
               "value, limit: where it is exceeded most [N·m]", "2 barred ranges, worst 310 … 355 rpm (main_coupling)",
               "modes"},
-    ClaimKind{clutch_slips_engaging, bears, note, above, "a clutch slips from its closing to its locking",
+    ClaimKind{clutch_slips_engaging, bears, note, above,
+              "a clutch slips from its closing to its locking; in the conclusion where it is opened each time before "
+              "it locks",
               "at: first; value: largest speed of slip [rad/s]", "\"clutch\" slips while it engages, first at 0.5 s",
               "run, compare"},
     ClaimKind{clutch_opened_by_command, bears, note, anything, "a clutch is open by command", "at: first",

@@ -244,8 +244,9 @@ class RunFigures {
     if (!has_cycle()) return;
     for (const QuantityKind& what : {quantities::delta, quantities::cycle_fluctuation})
       report_(what, link(), [&]() -> std::optional<Found> {
+        constexpr double slight = 0.1, half = 0.5;  // of the range: no δ beyond the one, no range beyond the other
         const double part = last_ == cycles_.data() ? 0 : drift_of(*last_, last_[-1], tolerance_);
-        if (part > 0.5 || (what == quantities::delta) != (repeating_ && part <= 0.1)) return {};
+        if (part > half || (what == quantities::delta) != (repeating_ && part <= slight)) return {};
         return Found{last_->fluctuation(), 1, last_->end};
       });
     report_(quantities::mid_speed, link(), [&] { return Found{last_->mid_speed(), model_.speed_scale, last_->end}; });
