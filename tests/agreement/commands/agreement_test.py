@@ -1,5 +1,4 @@
 """scripts/agreement --check: is a planted wrong value found, by every pair, and nothing found where all agree?"""
-import copy
 import json
 import math
 import subprocess
@@ -241,6 +240,15 @@ class Questions(unittest.TestCase):
     def test_a_motion_that_the_machine_leaves_is_not_run_on(self):
         note = "the machine comes to rest at 13.52 s and stays there; shown is the motion that it keeps after step 8"
         self.assertIsNone(asked.settled("scenes/x.toml", {**SUMMARIES, "steady": {**STEADY, "notes": [note]}}))
+
+    def test_an_effect_in_place_of_another_has_a_full_model_of_its_own(self):
+        told = told_of(SUMMARIES)
+        effects = told.cells["effects"]["summary"]
+        effects["effects"].insert(0, {"effect": "elasticity:shaft", "in_place_of": "elasticity of coupling", "changes": [
+            {"figure": "peak_torque.coupling", "full": 140.0, "without": 60.0, "relative": 4 / 7, "error": 1e-9}]})
+        self.assertNotIn("run_and_effects", found(told))
+        del effects["effects"][0]["in_place_of"]
+        self.assertIn("run_and_effects", found(told))
 
     def test_effects_of_forces_are_asked_of_steady(self):
         forces = {"simulated": {"description": "steady motion of the machine (elasticity of a, b and joint friction), crank's cycle of 360°"}}

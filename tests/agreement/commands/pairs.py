@@ -127,6 +127,8 @@ def run_and_effects(told):
         return
     own, seen = values(run["figures"], "run"), set()
     for effect in effects["effects"]:
+        if effect.get("in_place_of"):
+            continue  # it is compared within a model of its own
         for c in effect["changes"]:
             name = c["figure"]
             if name in own and name not in seen and number(c["full"]) and number(c["error"]):
