@@ -4,10 +4,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "studies/limits/verdicts.h"
 
 namespace kurbel {
+namespace {
+
+constexpr double again = 0.99;
+constexpr int least_samples_of_a_cycle = 100;
+
+bool comes_again(const Result& r, const Figure& peak) {
+  if (!r.trajectory || r.cycles.empty() || r.trajectory->time().size() < 2) return true;
+  const std::vector<double>& time = r.trajectory->time();
+  const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+  if (r.cycles.back().end - r.cycles.back().begin < least_samples_of_a_cycle * step) return true;
+  const std::optional<double> later = largest_sample_from(r, peak, 0.5 * (time.front() + time.back()));
+  return !later || *later >= again * std::abs(peak.value);
+}
+
+}  // namespace
 
 std::string load_case_at(const Result& r, std::optional<double> at) {
   const Periods& p = r.periods;
@@ -31,6 +47,26 @@ std::string load_case_at(const Result& r, std::optional<double> at) {
   if (p.run_down_begin && *at > *p.run_down_begin) return load_case::run_down;
   if (!p.run_up_end || *at > *p.run_up_end) return load_case::steady;
   return begins_at_rest(r.model) ? load_case::start : load_case::run;
+}
+
+std::optional<double> largest_sample_from(const Result& r, const Figure& peak, double from) {
+  if (!r.trajectory) return {};
+  const TrajectoryRecorder& trajectory = *r.trajectory;
+  const std::vector<Channel>& channels = trajectory.channels();
+  const auto torque = std::find_if(channels.begin(), channels.end(), [&](const Channel& channel) {
+    return channel.name.what == quantities::torque && channel.name.of == peak.of;
+  });
+  if (torque == channels.end()) return {};
+  const auto column = static_cast<std::size_t>(torque - channels.begin());
+  double largest = 0;
+  for (std::size_t row = 0; row < trajectory.time().size(); ++row)
+    if (trajectory.time()[row] >= from) largest = std::max(largest, std::abs(trajectory.value(row, column)));
+  return largest;
+}
+
+std::string load_case_of_peak(const Result& r, const Figure& peak) {
+  const std::string moment = load_case_at(r, peak.at);
+  return moment == load_case::steady && !comes_again(r, peak) ? std::string(load_case::run) : moment;
 }
 
 }  // namespace kurbel

@@ -62,9 +62,14 @@ class Rater {
     return result_.model->network.data.find<T>(component_);
   }
   std::string load_case_of(std::optional<double> at) const {
-    return only_case_.empty() ? load_case_at(result_, at) : only_case_;
+    if (!only_case_.empty()) return only_case_;
+    const Figure* peak = largest_torque();
+    return peak && peak->at == at ? load_case_of_peak(result_, *peak) : load_case_at(result_, at);
   }
-  bool is_steady(std::optional<double> at) const { return load_case_of(at) == load_case::steady; }
+  // Whether the factors of steady motion count: at this moment, even if the value does not come again.
+  bool is_steady(std::optional<double> at) const {
+    return (only_case_.empty() ? load_case_at(result_, at) : only_case_) == load_case::steady;
+  }
   // `mends` gives the remedy for the factor by which the value may be too large.
   template <class Mends>
   Verdict& add(const char* requirement, const Estimate& value, std::optional<double> at, double limit, const char* unit,

@@ -12,6 +12,7 @@
 #include "studies/answers/run_claims.h"
 #include "studies/dictionary/dictionary.h"
 #include "studies/findings/figure_text.h"
+#include "studies/limits/load_cases.h"
 
 namespace kurbel {
 namespace {
@@ -86,18 +87,9 @@ std::optional<double> largest_after_start(const Result& r, const Figure& peak) {
       r.cycles.empty() || r.model->scene.run.start.speed == 0 || !r.model->commands.empty())
     return {};
   const double first = r.cycles.front().end, half = 0.5 * (first + r.cycles.back().end);
-  const std::vector<Channel>& channels = r.trajectory->channels();
-  const auto torque = std::find_if(channels.begin(), channels.end(),
-                                   [&](const Channel& channel) { return "peak_" + channel.name.text == peak.name; });
-  if (!peak.at || *peak.at >= first || torque == channels.end()) return {};
-  double after = 0, later = 0;
-  for (std::size_t row = 0; row < r.trajectory->time().size(); ++row) {
-    const double t = r.trajectory->time()[row],
-                 size = std::abs(r.trajectory->value(row, static_cast<std::size_t>(torque - channels.begin())));
-    if (t >= first) after = std::max(after, size);
-    if (t >= half) later = std::max(later, size);
-  }
-  return after < nearly * std::abs(peak.value) ? std::optional(later) : std::nullopt;
+  if (!peak.at || *peak.at >= first) return {};
+  const std::optional<double> after = largest_sample_from(r, peak, first);
+  return after && *after < nearly * std::abs(peak.value) ? largest_sample_from(r, peak, half) : std::nullopt;
 }
 
 const Figure* largest_peak(const Result& r) {

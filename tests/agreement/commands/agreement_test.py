@@ -1,4 +1,5 @@
 """scripts/agreement --check: is a planted wrong value found, by every pair, and nothing found where all agree?"""
+import copy
 import json
 import math
 import subprocess
