@@ -57,7 +57,7 @@ struct RubberCoupling {
   void first_states(const Twist<double>& x, double* own) const {
     for (std::size_t j = 0; j < branches; ++j) own[j] = x.angle;
   }
-  InternalState state(int k) const { return {branches == 1 ? "creep" : "creep" + std::to_string(k + 1), "rad", 1e-3}; }
+  InternalState state(int k) const { return {branches == 1 ? "creep" : "creep" + std::to_string(k + 1), "rad", 0}; }
   double twist_at(double torque) const { return torque / stiffness; }
   double stiffness_at_rest() const { return stiffness; }
 };

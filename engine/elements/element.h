@@ -124,7 +124,7 @@ struct ShaftState {
 struct InternalState {
   std::string name;   // "current"
   std::string unit;   // SI
-  double scale = 1;   // order of magnitude, for error control
+  double scale = 1;   // order of magnitude, for error control; 0: the twist of its joint under the rated torque
   bool peak = false;  // its extreme is a figure of every run
   bool lags = false;  // follows a law of the present motion; equals the law in constant motion
 };

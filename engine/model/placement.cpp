@@ -59,9 +59,13 @@ void set_whole_loads(Model& m) {
     }
 }
 
-int place_internal_states(Model& m, const std::string& component, const std::vector<InternalState>& states) {
+int place_internal_states(Model& m, const std::string& component, const std::vector<InternalState>& states,
+                          double twist = 0) {
   const int first = static_cast<int>(m.internal_states.size());
-  for (const InternalState& state : states) m.internal_states.push_back({component, state});
+  for (const InternalState& state : states) {
+    m.internal_states.push_back({component, state});
+    if (state.scale == 0) m.internal_states.back().state.scale = twist;
+  }
   return first;
 }
 
@@ -80,8 +84,9 @@ void place_connections(Model& m, PoolSet& pools) {
     if (joint.component != last || loss < 0) loss = account(m, joint.component, Account::harmful);
     last = joint.component;
     e.loss_account = loss;
-    ConnectionExtras extras{.own = place_internal_states(m, joint.component, joint.element->internal_states),
-                            .component = joint.component};
+    ConnectionExtras extras{
+        .own = place_internal_states(m, joint.component, joint.element->internal_states, e.twist_scale),
+        .component = joint.component};
     if (joint.element->is.guards > 0) extras.mode = static_cast<int>(m.mode_slots++);
     if (joint.element->is.commanded) extras.command = m.command_of(joint.component);
     if (joint.element->is.uses_angle) extras.angle = tracked(m, joint.a);

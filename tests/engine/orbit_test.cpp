@@ -324,6 +324,38 @@ TEST(Orbit, InternalStatesAreAmongTheUnknowns) {
   EXPECT_LT(((above - below) / 2 - orbit.point.derivative * step).cwiseAbs().maxCoeff(), 3e-5 * h);
 }
 
+// A creep is measured by the twist under the rated torque, at any stiffness; a slow approach (J/c = 4.6 s) leaves much of it
+// for Newton's method. Speed and mean torque are those of the balance c ω = T.
+TEST(Orbit, OfSoftRubberIsFoundFromAfar) {
+  for (const double stiffness : {30.0, 100.0, 3000.0, 1e5}) {
+    const Scene scene = scene_from(fmt::format(R"(
+      line = ["disc", "rubber", "fan"]
+      disc = {{ kind = "inertia", inertia = "4.3 kg*m2" }}
+      fan = {{ kind = "inertia", inertia = "0.22 kg*m2" }}
+      drag = {{ kind = "bearing drag", on = "fan", damping = "0.98 N*m*s/rad" }}
+      effects = {{ elasticity = true, relaxation = true }}
+      run = {{ start = {{ speed = "76 rad/s" }} }}
+      [rubber]
+      kind = "rubber coupling"
+      stiffness = "{} N*m/rad"
+      damping_ratio = 0.05
+      branches = [{{ stiffness = "{} N*m/rad", relaxation_time = "10 ms" }}]
+      [source]
+      kind = "torque source"
+      on = "disc"
+      [source.table]
+      over = "angle"
+      unit = ["deg", "N*m"]
+      period = "180 deg"
+      points = [[0, 0], [60, 1152], [120, 0], [180, 0]]
+    )",
+                                               stiffness, 0.4 * stiffness));
+    const Orbit orbit = orbit_of(scene);
+    ASSERT_EQ(orbit.kind, Orbit::Kind::cycle) << stiffness << ": " << orbit.words;
+    EXPECT_LT(orbit.cycles, 100) << stiffness;
+  }
+}
+
 // A load that comes and goes by a repeated sequence: the run alone comes to it, each cycle by a ratio nearer. What is
 // left of the way is reported.
 TEST(Orbit, WhatTheRunAloneCameToIsTheFartherOffTheSlowerItSettles) {
