@@ -303,11 +303,12 @@ std::string Linkage::locks_in_words() const {
 }
 
 std::vector<std::string> Linkage::transmission_in_words() const {
+  constexpr long double rounding = 1e-11L;  // of a margin that is zero: angles below 0.0002° are 0
   std::vector<std::string> words;
   for (std::size_t g = 0; g < least_.size(); ++g) {
     const AssurGroup& group = structure_.groups[g];
     if (group.form != AssurGroup::Form::rrr && group.form != AssurGroup::Form::rrp) continue;
-    const long double margin = std::min(least_[g].margin, 1.0L), sine = margin > 1e-14L ? std::sqrt(margin) : 0;
+    const long double margin = std::min(least_[g].margin, 1.0L), sine = margin > rounding ? std::sqrt(margin) : 0;
     words.push_back(fmt::format("transmission angle of {} ({}) at least {:.4g}°, at φ = {}", name_of(group),
                                 links_of(group, sketch_), static_cast<double>(std::asin(sine) * 360 / whole_turn),
                                 in_degrees_of(std::remainder(least_[g].phi, whole_turn))));

@@ -191,5 +191,13 @@ TEST(MechanismWords, OfEqualStrokesAndOfChangePoints) {
        "not force it: inertia does, or links at another angle beside it, as a second rod on cranks 90° apart"});
 }
 
+// At the end of a pendulum's arc its rod stands across its slider's line: the transmission angle is zero, not rounding.
+TEST(MechanismWords, OfAnArcThatEndsAtADeadPosition) {
+  const Scene scene = test::scene_file("scenes/pendulum_balance.toml");
+  EXPECT_NE(
+      output_of(reduce(scene, {})).json().find("transmission angle of RRP (rod, slider) at least 0°, at φ = -15.47°"),
+      std::string::npos);
+}
+
 }  // namespace
 }  // namespace kurbel::mechanism_words_test
