@@ -383,8 +383,9 @@ class FitWork {
     bool of_points = false;
     for (const ChannelResidual& r : study_.residuals)
       worst = std::max(worst, r.range_part.value_or(0)), of_points = of_points || r.of == "points";
-    study_.conclusion += fmt::format("; {}the residual is {:.2g} % of the {} at most{}", orders_compared(), 100 * worst,
-                                     of_points ? "measured range" : "greatest measured amplitude", behind);
+    study_.conclusion += fmt::format("; {}the RMS residual is {:.2g} % of the {}{}{}", orders_compared(), 100 * worst,
+                                     of_points ? "measured range" : "greatest measured amplitude",
+                                     study_.residuals.size() > 1 ? " in the worst channel" : "", behind);
     if (!study_.converged) study_.notes.push_back("the fit did not converge; give further starts (--starts 8)");
     double longest = 1;
     for (const ChannelResidual& r : study_.residuals) longest = std::max(longest, r.correlation_length);

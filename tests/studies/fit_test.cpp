@@ -305,7 +305,7 @@ TEST_F(Fit, TellsWhichOrdersItsResidualIsOf) {
   options.records[0].orders = {2};
   options.checks = false;
   const FitStudy found = fit_machine(options);
-  EXPECT_NE(found.conclusion.find("; in the orders compared (2) the residual is "), std::string::npos)
+  EXPECT_NE(found.conclusion.find("; in the orders compared (2) the RMS residual is "), std::string::npos)
       << found.conclusion;
   EXPECT_EQ(found.curves.at(0).orders, (std::vector<double>{2}));
 }
