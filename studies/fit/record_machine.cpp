@@ -66,6 +66,18 @@ double correlation_length(const Eigen::MatrixXd& r) {
   return std::min(sum, static_cast<double>(n) / 4);
 }
 
+// Of the residual of a fit with so many unknowns. Both sums are too small in short records; so where ρ₁ is significant it is at
+// least that of a first-order autoregression, (1 + ρ)/(1 − ρ), with ρ free of its bias, ρ = (n ρ₁ + 1 + unknowns)/(n − 3)
+// (Kendall, and Marriott and Pope, Biometrika 41, 1954).
+double correlation_length_of_residual(const Eigen::VectorXd& r, double unknowns) {
+  const double sum = correlation_length(r.transpose()), n = static_cast<double>(r.size()), power = r.squaredNorm();
+  if (r.size() < fewest_correlated || !(power > 0)) return sum;
+  const double first = r.head(r.size() - 1).dot(r.tail(r.size() - 1)) / power;
+  if (first <= 2 / std::sqrt(n)) return sum;
+  const double rho = (n * first + 1 + unknowns) / (n - 3);
+  return std::max(sum, rho < 1 ? std::min((1 + rho) / (1 - rho), n / 4) : n / 4);
+}
+
 }  // namespace
 
 double ShownSignal::mean(double x, double reach) const {
@@ -373,7 +385,7 @@ Eigen::VectorXd ComparedRecord::points_of(const Response& response, const std::v
 void ComparedRecord::weigh_by(const Eigen::VectorXd& left, double unknowns) {
   for (std::size_t c = 0; c < lengths_.size(); ++c)
     if (orders_.empty() && record_.over != Over::mode)
-      lengths_[c] = correlation_length(left.segment(begin(c), per_channel_).transpose());
+      lengths_[c] = correlation_length_of_residual(left.segment(begin(c), per_channel_), unknowns);
   const double values = independent(), freedom = std::max(values - unknowns, 1.0);
   double squares = 0, scattered = 0;  // over the scatter
   for (std::size_t c = 0; c < lengths_.size(); ++c) {
