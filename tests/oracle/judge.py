@@ -401,8 +401,8 @@ class Judge:
             asked[-1] if asked else None
         same = not of or of.get("effects") == self.run.summary.get("model", {}).get("effects")
         if rests is not None and same:
-            where = l if l and l["complete"] else m
-            if not m["moves"] and not where["moves"]:
+            where = l if l and l["complete"] and (l["moves"] or not m["moves"]) else m
+            if not where["moves"]:
                 self.contradiction("steady: comes to rest, but never moved", f"said at {rests:.4g} s")
             elif where["end"] == "rests" and self.another_rest(rests, where) and not self.truth["sequence"]:
                 self.contradiction("steady: comes to rest at another time", f"said {rests:.4g}, sampled {where['rests_since']:.4g} s")
