@@ -26,20 +26,6 @@ constexpr std::size_t parts_without_cycle = 16, least_means = 3;
 // Scatter of the mid speed between cycles for a local tolerance, as a multiple of it; never more than most_noise.
 constexpr double noise_of_tolerance = 30, most_noise = 1e-5;
 
-// Changes D₁, D₂ over the two halves of the last 2 · `length` changes.
-std::optional<double> geometric_rest(std::span<const double> v, std::size_t length, double noise) {
-  const std::size_t n = v.size() - 1;
-  const double second = std::abs(v[n] - v[n - length]), first = std::abs(v[n - length] - v[n - 2 * length]);
-  if (second <= noise) return second;
-  if (second >= first) return {};
-  return second * second / (first - second);
-}
-
-double range_of(std::span<const double> v) {
-  const auto [low, high] = std::minmax_element(v.begin(), v.end());
-  return *high - *low;
-}
-
 // The means of a machine without a cycle: angle over time.
 std::vector<double> means_of_parts(const SpeedRecorder& speed, double begin, double end) {
   const std::vector<double>& angle = speed.angles();
@@ -308,39 +294,6 @@ void find_standstill(const Model& model, const BandHistory& speed, const RunOutc
 }
 
 }  // namespace
-
-Approach approach_of(std::span<const double> values, double noise) {
-  Approach approach;
-  if (values.size() >= 2) approach.last_change = values.back() - values[values.size() - 2];
-  if (values.size() < 3) return approach;
-  const std::span<const double> v = values.last(std::max<std::size_t>(3, values.size() / 2 + 1));
-  const std::size_t n = v.size() - 1, half = n / 2;
-  bool rises = false, falls = false;
-  for (std::size_t k = 1; k <= n; ++k) {
-    rises = rises || v[k] - v[k - 1] > noise;
-    falls = falls || v[k - 1] - v[k] > noise;
-  }
-  approach.alternates = rises && falls;
-  if (approach.alternates) {
-    const double before = range_of(v.first(v.size() - half)), now = range_of(v.last(half + 1));
-    const double growth = std::max(1.0, now / std::max(before, noise));
-    approach.remaining = std::isfinite(growth) ? now * growth * growth : now;
-    return approach;
-  }
-  approach.remaining = 0;
-  for (const std::size_t length : {std::max<std::size_t>(1, half / 4), half}) {
-    const std::optional<double> rest = geometric_rest(v, length, noise);
-    if (!rest || !approach.remaining) {
-      approach.remaining.reset();
-    } else {
-      approach.remaining = std::max(*approach.remaining, *rest);
-    }
-  }
-  // A single ratio may be that of a faster motion, which dies away in it: none below a tenth is assumed.
-  if (const double change = std::abs(v[n] - v[n - 1]); n == 2 && approach.remaining && change > noise)
-    approach.remaining = std::max(*approach.remaining, change / 9);
-  return approach;
-}
 
 Periods find_periods(const Model& model, const LinkHistory& link, double tolerance) {
   Periods periods;

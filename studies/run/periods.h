@@ -28,25 +28,13 @@
 #pragma once
 
 #include <cmath>
-#include <span>
 
 #include "engine/run/speed_history.h"
 #include "studies/findings/result.h"
+#include "studies/run/approach.h"
 #include "studies/run/switchings.h"
 
 namespace kurbel {
-
-// Distance of the last of a sequence of equally spaced values to its limit.
-struct Approach {
-  double last_change = 0;           // from the last but one value
-  std::optional<double> remaining;  // |limit − last value|; empty: no limit is recognisable, or fewer than three values
-  bool alternates = false;          // changes of both senses: the limit may be on either side
-};
-
-// From the later half of the values. One-sided changes are evaluated over short and long parts of it, and the worse
-// result counts: two halves that change by D₁, D₂ leave D₂ q/(1 − q), q = D₂/D₁ < 1. For alternating changes it is
-// their range, increased if it grows. Changes below `noise` are not extrapolated and count by themselves.
-Approach approach_of(std::span<const double> values, double noise);
 
 // What is known of the reduction link in a run. `by_time`: records of the periods of its laws over time (clock_of).
 struct LinkHistory {
