@@ -104,6 +104,7 @@ struct Periods {
   bool steady = false;                                      // deviation from the limit of the mid speed < 0.1 %
   std::optional<double> remaining;                          // to the limit [rad/s]; empty: no limit is recognisable
   bool without_limit = false;  // the speed keeps changing, without slowing from cycle to cycle
+  bool unsettled = false;      // it still changes, and whether it comes to a limit is not known
   double judged_until =
       HUGE_VAL;         // end of the last period of steady motion, else of the driven time; ∞: of the run [s]
   int cycles = 1;       // after which steady motion repeats, or periods of `time`

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 namespace kurbel {
 namespace {
@@ -16,7 +18,66 @@ std::optional<double> geometric_rest(std::span<const double> v, std::size_t leng
   return second * second / (first - second);
 }
 
+constexpr std::size_t shortest_step = 4;  // intervals
+constexpr double same_limit = 0.1;        // of what lacks
+
+// The limit by the last four steps of so many intervals.
+SpeedLimit limit_by(std::span<const double> angles, std::size_t step, double noise) {
+  const std::size_t n = angles.size() - 1;
+  const auto weight = [&](std::size_t k) {
+    const double sine = std::sin(std::numbers::pi * (static_cast<double>(k) + 0.5) / (2 * static_cast<double>(step)));
+    return sine * sine / static_cast<double>(step);
+  };
+  const auto mean = [&](std::size_t before) {  // steps before the last
+    double sum = 0;
+    const std::size_t first = n - (before + 2) * step;
+    for (std::size_t k = 0; k < 2 * step; ++k) sum += weight(k) * (angles[first + k + 1] - angles[first + k]);
+    return sum;
+  };
+  const double last = mean(0), first_change = mean(1) - mean(2), change = last - mean(1);
+  SpeedLimit found{.limit = last, .speed = last, .unsure = std::abs(change) + noise, .change = change};
+  if (std::abs(change) <= noise) return found.kind = SpeedLimit::Kind::known, found;
+  if (std::abs(change) >= std::abs(first_change) - noise) {
+    if (change * first_change > 0) found.kind = SpeedLimit::Kind::grows;
+    return found;
+  }
+  if (change * first_change <= 0) return found;
+  const double q = change / first_change, rest = change * q / (1 - q);
+  double lacks = 0;  // of the last mean, where 1 lacks at the end
+  for (std::size_t k = 0; k < 2 * step; ++k)
+    lacks += weight(k) * std::pow(q, -(2 - (static_cast<double>(k) + 0.5) / static_cast<double>(step)));
+  found.kind = SpeedLimit::Kind::known;
+  found.limit = last + rest, found.speed = found.limit - rest / lacks;
+  found.unsure = noise * (1 + 4 * q / ((1 - q) * (1 - q)));
+  return found;
+}
+
+bool agree(const SpeedLimit& a, const SpeedLimit& b) {
+  return a.kind == SpeedLimit::Kind::known && b.kind == SpeedLimit::Kind::known &&
+         std::abs(a.limit - b.limit) <=
+             same_limit * std::max(std::abs(a.limit - a.speed), std::abs(b.limit - b.speed)) + a.unsure + b.unsure;
+}
+
 }  // namespace
+
+SpeedLimit limit_of_speed(std::span<const double> angles, double noise) {
+  std::vector<SpeedLimit> by;  // the longest part first
+  for (std::size_t step = angles.empty() ? 0 : (angles.size() - 1) / 4; step >= shortest_step; step /= 2)
+    by.push_back(limit_by(angles, step, noise));
+  for (std::size_t k = 0; k + 1 < by.size(); ++k)
+    if (agree(by[k], by[k + 1]) && (k + 2 == by.size() || agree(by[k], by[k + 2]))) {
+      SpeedLimit& found = by[k];
+      for (std::size_t other = k + 1; other < by.size() && other <= k + 2; ++other)
+        found.unsure = std::max(found.unsure, std::abs(found.limit - by[other].limit));
+      return found;
+    }
+  SpeedLimit none;
+  if (by.empty()) return none;
+  none.change = by.back().change;
+  const auto grows = [](const SpeedLimit& one) { return one.kind == SpeedLimit::Kind::grows; };
+  if (by.size() > 1 && grows(by.back()) && grows(by[by.size() - 2])) none.kind = SpeedLimit::Kind::grows;
+  return none;
+}
 
 double range_of(std::span<const double> v) {
   const auto [low, high] = std::minmax_element(v.begin(), v.end());

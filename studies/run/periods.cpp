@@ -17,7 +17,11 @@ namespace {
 constexpr double least_reported = 1e-6;  // of a speed: nearer to its limit nobody asks
 constexpr double near_steady = 0.01, at_rest = 1e-3, steady_within = 1e-3;
 constexpr double part_of_range = 0.05;  // the margin of a cycle's range
-constexpr double nowhere = 1e3;         // times the speed: a limit so far away is rounding
+// Of a machine without a cycle: intervals from which on its limit is that of its angles; part of what lacks by which it may be
+// unsure; deviation of the speed from its mean that is a vibration.
+constexpr std::size_t least_angles = 64;
+constexpr double most_unsure = 0.2, vibrates_from = 1e-4;
+constexpr double nowhere = 1e3;  // times the speed: a limit so far away is rounding
 // Works of cycles that differ by less, over the largest, are alike, or nearly so, or unlike; several cycles are one period
 // where they leave a tenth of what single ones differ by, or what the mid speeds change by a tenth of their range. Below this
 // part of the energy works are none.
@@ -26,17 +30,22 @@ constexpr std::size_t parts_without_cycle = 16, least_means = 3;
 // Scatter of the mid speed between cycles for a local tolerance, as a multiple of it; never more than most_noise.
 constexpr double noise_of_tolerance = 30, most_noise = 1e-5;
 
-// The means of a machine without a cycle: angle over time.
-std::vector<double> means_of_parts(const SpeedRecorder& speed, double begin, double end) {
+// Angles at equal intervals within a time.
+std::span<const double> angles_within(const SpeedRecorder& speed, double begin, double end) {
   const std::vector<double>& angle = speed.angles();
-  std::vector<double> means;
-  if (angle.empty() || !(speed.interval() > 0)) return means;
+  if (angle.empty() || !(speed.interval() > 0)) return {};
   const std::size_t last = std::min(angle.size() - 1, static_cast<std::size_t>(end / speed.interval() * (1 + 1e-12)));
   const auto first = static_cast<std::size_t>(std::ceil(begin / speed.interval() * (1 - 1e-12)));
-  const std::size_t part = last > first ? (last - first) / parts_without_cycle : 0;
+  return last > first ? std::span(angle).subspan(first, last - first + 1) : std::span<const double>();
+}
+
+// The means of a machine without a cycle: angle over time.
+std::vector<double> means_of_parts(std::span<const double> angle, double interval) {
+  std::vector<double> means;
+  const std::size_t last = angle.empty() ? 0 : angle.size() - 1, part = last / parts_without_cycle;
   if (part == 0) return means;
-  for (std::size_t k = first + (last - first) % part; k + part <= last; k += part)
-    means.push_back((angle[k + part] - angle[k]) / (static_cast<double>(part) * speed.interval()));
+  for (std::size_t k = last % part; k + part <= last; k += part)
+    means.push_back((angle[k + part] - angle[k]) / (static_cast<double>(part) * interval));
   return means;
 }
 
@@ -59,9 +68,11 @@ struct DrivenTime {
   DrivenPart of;
   std::vector<CycleRecord> cycles = {}, by_time = {};  // whole ones within it
   std::vector<double> means = {};                      // of its sixteenths [rad/s], where there are neither
+  std::span<const double> angles = {};                 // then, at intervals [rad]
   std::optional<CycleRecord> last = {};                // the last period; before it is known, the last cycle
-  double speed = 0;   // its mid speed, or the speed at the end of the driven time [rad/s]
-  double unlike = 0;  // works of the last periods, over the largest
+  double speed = 0;       // its mid speed, or the speed at the end of the driven time [rad/s]
+  double unlike = 0;      // works of the last periods, over the largest
+  bool vibrates = false;  // without a cycle: `speed` is its mean
   bool is_long_enough() const { return std::max({cycles.size(), by_time.size(), means.size()}) >= least_means; }
 };
 
@@ -80,7 +91,10 @@ DrivenTime data_of(const DrivenPart& section, const Model& model, const LinkHist
   d.by_time = within(link.by_time);
   d.cycles = within(link.cycles);
   if (last) d.last = *last;
-  if (model.cycle == 0 && clock_of(model) == 0) d.means = means_of_parts(link.speed, section.begin, section.end);
+  if (model.cycle == 0 && clock_of(model) == 0) {
+    d.angles = angles_within(link.speed, section.begin, section.end);
+    d.means = means_of_parts(d.angles, link.speed.interval());
+  }
   d.speed = d.last ? d.last->mid_speed() : link.speed.driven().empty() ? 0 : link.speed.driven().last();
   return d;
 }
@@ -186,16 +200,47 @@ std::optional<Approach> find_period(const Model& model, double tolerance, Driven
 
 // Of the last speed v to its limit. A rising speed is stated from the limit, a falling one from where it is: a limit of
 // zero has no parts.
-std::string remaining_in_words(const Approach& approach, double v, bool steady) {
+std::string remaining_in_words(const Approach& approach, double v, bool steady, int digits = 3) {
   const double rest = *approach.remaining, now = std::abs(v);
-  if (steady) return fmt::format("is within {:.3g} % of its final value", 100 * std::max(rest / now, least_reported));
-  if (approach.alternates) return fmt::format("still varies by up to {:.3g} %", 100 * rest / now);
+  const auto percent = [&](double part) { return fmt::format("{:.{}g} %", 100 * part, digits); };
+  if (steady) return fmt::format("is within {} of its final value", percent(std::max(rest / now, least_reported)));
+  if (approach.alternates) return "still varies by up to " + percent(rest / now);
   if (approach.last_change * v > 0)
-    return fmt::format("is still {:.3g} % below its final value", 100 * rest / (now + rest));
-  return fmt::format("is still to fall by {:.3g} %{}", 100 * rest / now, rest > now ? ", to beyond zero" : "");
+    return fmt::format("is still {} below its final value", percent(rest / (now + rest)));
+  return fmt::format("is still to fall by {}{}", percent(rest / now), rest > now ? ", to beyond zero" : "");
 }
 
-void judge_steadiness(const Model& model, double tolerance, DrivenTime& d, Periods& periods) {
+std::string growing_in_words(const char* speed, double change, const std::string& unit) {
+  return fmt::format("the {} speed changes by {:+.2g} % per {}, and this change does not decrease", speed, 100 * change,
+                     unit);
+}
+
+// Without a cycle and without laws over time.
+void judge_by_angles(const LinkHistory& link, double tolerance, DrivenTime& d, Periods& periods) {
+  const double scale = std::abs(d.speed), interval = link.speed.interval();
+  const SpeedLimit found =
+      limit_of_speed(d.angles, std::min(noise_of_tolerance * tolerance, most_noise) * scale * interval);
+  const double lacks = std::abs(found.limit - found.speed) / interval, unsure = found.unsure / interval;
+  const double change = (d.means.back() - d.means[d.means.size() - 2]) / scale;
+  const bool known = found.kind == SpeedLimit::Kind::known;
+  periods.steady = known && lacks + unsure <= steady_within * scale;
+  periods.without_limit = found.kind == SpeedLimit::Kind::grows;
+  if (periods.steady || (known && unsure <= most_unsure * lacks)) {
+    const Approach approach{.last_change = found.change, .remaining = lacks + (periods.steady ? unsure : 0)};
+    periods.remaining = approach.remaining;
+    periods.verdict = "the speed " + remaining_in_words(approach, d.speed, periods.steady, 2);
+    d.vibrates = periods.steady && std::abs(d.speed - found.speed / interval) > vibrates_from * scale;
+    if (d.vibrates) d.speed = found.speed / interval;
+  } else if (periods.without_limit) {
+    periods.verdict = growing_in_words("mean", change, "sixteenth of the time");
+  } else {
+    periods.unsettled = true;
+    periods.verdict =
+        fmt::format("the mean speed still changes, by {:+.2g} % in the last sixteenth of the time", 100 * change);
+  }
+}
+
+void judge_steadiness(const Model& model, const LinkHistory& link, double tolerance, DrivenTime& d, Periods& periods) {
   if (model.cycle == 0) periods.time = time_of_period(model, d);
   const bool in_parts = model.cycle == 0 && periods.time == 0;
   const std::string length = periods.time > 0 ? fmt::format(" of {:.6g} s", periods.time) : "";
@@ -215,13 +260,14 @@ void judge_steadiness(const Model& model, double tolerance, DrivenTime& d, Perio
     periods.verdict = "it stands still";
     return;
   }
+  if (in_parts && d.angles.size() > least_angles && d.means.size() > 1)
+    return judge_by_angles(link, tolerance, d, periods);
   if (approach->remaining) periods.remaining = *approach->remaining;
   periods.steady = approach->remaining && *approach->remaining <= steady_within * scale;
-  const double change = 100 * approach->last_change / scale;
+  const double change = approach->last_change / scale;
   periods.without_limit = !approach->remaining || *approach->remaining > nowhere * scale;
   if (periods.without_limit)
-    periods.verdict =
-        fmt::format("the {} speed changes by {:+.2g} % per {}, and this change does not decrease", speed, change, unit);
+    periods.verdict = growing_in_words(speed, change, unit);
   else
     periods.verdict = fmt::format("the {} speed {}", speed, remaining_in_words(*approach, d.speed, periods.steady));
   if (const std::string period = period_in_words(periods, model.cycle); periods.steady && !period.empty())
@@ -235,6 +281,7 @@ void judge_steadiness(const Model& model, double tolerance, DrivenTime& d, Perio
 // the speed fluctuates by no more, and a twentieth of the fluctuation is left by a motion that differs between cycles.
 std::vector<double> margins_of(const DrivenTime& d) {
   const double speed = std::abs(d.speed), widest = near_steady * speed;
+  if (!d.last && d.vibrates) return {widest, 2 * widest, 5 * widest, 10 * widest, 20 * widest, 50 * widest};
   if (!d.last) return {widest};
   const double narrow = part_of_range * (d.last->omega_max - d.last->omega_min);
   return {std::clamp(narrow, steady_within * speed, widest), widest};
@@ -242,7 +289,10 @@ std::vector<double> margins_of(const DrivenTime& d) {
 
 void find_run_up(const Model& model, const LinkHistory& link, const DrivenTime& d, double tolerance, Periods& periods) {
   const BandHistory& speed = link.speed.driven();
-  const double begin = d.last ? d.last->begin : d.of.end;
+  // A vibration must stay within the range for a sixteenth of the time.
+  const double begin = d.last       ? d.last->begin
+                       : d.vibrates ? d.of.end - (d.of.end - d.of.begin) / static_cast<double>(parts_without_cycle)
+                                    : d.of.end;
   double low = 0, high = 0;
   std::optional<double> entry;
   for (const double margin : margins_of(d)) {
@@ -301,7 +351,7 @@ Periods find_periods(const Model& model, const LinkHistory& link, double toleran
   if (model.scene.sequence.repeat && periods.run_down_begin > link.outcome.t - clock_of(model))
     periods.run_down_begin.reset();  // a pause of a drive that is switched by the clock
   DrivenTime d = driven_time(model, link, periods);
-  judge_steadiness(model, tolerance, d, periods);
+  judge_steadiness(model, link, tolerance, d, periods);
   if (d.of.started >= periods.run_down_begin.value_or(link.outcome.t)) {
     periods.steady = false;
     periods.verdict = fmt::format("what drives is still being started, until {:.6g} s", d.of.started);

@@ -8,18 +8,20 @@
 //               repeats divides nothing. What counts is the last section that has three mid speeds, and none before the last
 //               start of a drive.
 // mid speeds    ω_k = ½ (ω_max + ω_min) of each whole cycle of the section, converted to equal time steps. For machines
-//               without a cycle: of each period of the laws over time; if there is none, mean speeds of sixteen equal parts.
+//               without a cycle: of each period of the laws over time; if there is none, the speed without its vibration
+//               (limit_of_speed, approach.h), of less than 64 intervals mean speeds of sixteen equal parts.
 // steady        the distance of the mid speeds to their limit is at most 0.1 % of the last one. The limit follows from the
 //               decrease of the changes (approach_of): geometric, δ_k+1 = q δ_k, with a remaining sum of q/(1 − q) of
 //               the last one. Changes that do not decrease have no limit, however small they are: a runaway, a drift.
 // period        of steady motion: the fewest cycles, up to twelve, after which each mid speed is as above; where that leaves
 //               cycles with different works, the fewest with a tenth of the difference and at most 1 % of the works. Else
 //               periods of the laws over time.
-// steady speed  the mid speed of the last period; without any, the speed at the end of the driven time. Only for steady motion.
+// steady speed  the mid speed of the last period; without any, the speed at the end of the driven time, without its vibration.
+//               Only for steady motion.
 // run-up        ends when ω, for the rest of the driven time, stays within the range of the last period widened by a
 //               twentieth of it, but by 0.1 … 1 % of the steady speed; by 1 % if ω leaves that in later cycles (without a
-//               period: steady speed ± 1 %); but not before a drive is started: before its starter, ramp or law has come to
-//               its end. Only for steady motion; a machine that starts within that range has no run-up.
+//               period: steady speed ± 1 %, of what vibrates by more ± 2, 5 … 50 %); but not before a drive is started:
+//               before its starter, ramp or law has come to its end. Only for steady motion; a machine that starts within that range has no run-up.
 // run-down      from the end of the driven time to standstill, or to the end; a pause of a drive that the clock switches is
 //               none. The three periods and their works have the
 //               same borders everywhere (duty/work_periods.h).
