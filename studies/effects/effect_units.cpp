@@ -100,7 +100,10 @@ Effects effects_of(const Scene&, const std::vector<EffectUnit>& units, const Eff
     if (on[k] && !units[k].component.empty()) effects.elastic.push_back(units[k].component);
     for (const EffectFlag& effect : effect_flags())
       if (units[k].name == effect.name) effects.*(effect.flag) = on[k];
+    // Without elasticity the torque lag is left on: one effect is omitted, not two.
+    if (units[k].name == "torque_lag") effects.lags_rigid = on[k];
   }
+  effects.lags_rigid = effects.lags_rigid && effects.elastic.empty();
   return effects;
 }
 

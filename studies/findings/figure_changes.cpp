@@ -24,7 +24,8 @@ bool is_informative(const Figure& figure) {
           is_one_of(figure.what,
                     {quantities::peak_torque, quantities::delta, quantities::cycle_fluctuation, quantities::run_up_time,
                      quantities::run_down_time, quantities::rms_torque, quantities::slip_heat,
-                     quantities::stopping_time, quantities::stopping_angle, quantities::cycle_time}));
+                     quantities::stopping_time, quantities::stopping_angle, quantities::cycle_time}) ||
+          figure.words() == "motor_peak_torque" || figure.words() == "motor_rms_torque");
 }
 
 bool measure_the_same(const Figure& a, const Figure& b) {

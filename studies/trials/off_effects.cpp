@@ -73,6 +73,10 @@ std::vector<OffEffect> effects_that_are_off(const Scene& scene, const Effects& o
     else
       for (const std::string& component : rigid) list.push_back(elasticity_of({component}, on));
   }
+  // The first elasticity brings the lag of the motors' torques.
+  const bool lag = std::any_of(units.begin(), units.end(), [](const EffectUnit& u) { return u.name == "torque_lag"; });
+  if (lag && on.torque_lag && !on.lags_rigid && !on.transients && rigid.size() == could_be_elastic.size())
+    for (OffEffect& elastic : list) elastic.words += ", with torque lag";
   for (const bool dear : {false, true})
     for (const EffectFlag& flag : effect_flags()) {
       const bool has_data =

@@ -10,6 +10,7 @@
 #include "engine/run/run.h"
 #include "studies/advise/advise.h"
 #include "studies/effects/effect_study.h"
+#include "studies/run/compare.h"
 #include "tests/support/scenes.h"
 #include "tests/support/without_effect.h"
 
@@ -196,6 +197,65 @@ TEST(Advise, ScreensClearanceByImpactsAndARodByItsFrequency) {
       for (const Screen& s : screens) found = found || (s.name == screen && s.number > 1);
     EXPECT_TRUE(found) << scene;
   }
+}
+
+// A crank at a prescribed speed: all speeds and times are given, the torque of its drive is not.
+TEST(Effects, OfAPrescribedSpeedAreThoseOnItsTorque) {
+  const EffectStudy study = study_effects(test::scene_from(R"(
+    line = ["drive", "crank"]
+    drive = { kind = "prescribed speed", speed = "1500 rpm" }
+    run = { start = { speed = "1500 rpm" }, until = "0.2 s" }
+    [crank]
+    kind = "slider-crank"
+    radius = "100 mm"
+    rod = "400 mm"
+    rod_mass = "3 kg"
+    rod_com = "160 mm"
+    rod_inertia = "0.05 kg*m2"
+    slider_mass = "4 kg"
+    load = { kind = "constant", force = "-5 kN" }
+  )"),
+                                          plain());
+  const auto inertia = std::find_if(study.omitted.begin(), study.omitted.end(), [](const OmittedEffect& omitted) {
+    return omitted.effect.name == "variable_inertia";
+  });
+  ASSERT_NE(inertia, study.omitted.end());
+  ASSERT_FALSE(inertia->changes.empty());
+  EXPECT_EQ(inertia->changes.front().figure, "motor_peak_torque.drive");
+  EXPECT_NEAR(inertia->changes.front().relative, 0.511, 1e-3);  // −515.4 of −1054.8 N·m
+}
+
+// Without elasticity the lag of the motor's torque stays: what is omitted is one effect.
+TEST(Effects, ElasticityIsOmittedWithoutTheTorqueLag) {
+  const Scene scene = test::scene_from(R"(
+    line = ["motor", "c", "wheel", "crank"]
+    c = { kind = "coupling", stiffness = "80 kN*m/rad", damping_ratio = 0.03 }
+    wheel = { kind = "flywheel", inertia = "150 kg*m2" }
+    run = { start = { speed = "98 rpm", equilibrium = true }, until = "4 s" }
+    [motor]
+    kind = "induction motor"
+    rated_power = "7.5 kW"
+    rated_speed = "96 rpm"
+    synchronous_speed = "100 rpm"
+    breakdown_ratio = 2.5
+    inertia = "20 kg*m2"
+    [crank]
+    kind = "slider-crank"
+    radius = "60 mm"
+    rod = "300 mm"
+    slider_mass = "120 kg"
+    load = { kind = "press", nominal_force = "200 kN", nominal_travel = "10 mm" }
+  )");
+  const EffectStudy study = study_effects(scene, plain());
+  const auto elasticity = std::find_if(study.omitted.begin(), study.omitted.end(), [](const OmittedEffect& omitted) {
+    return omitted.effect.name == "elasticity:c";
+  });
+  ASSERT_NE(elasticity, study.omitted.end());
+  const auto* const delta = find_by(elasticity->changes, &FigureChange::figure, "delta.crank");
+  ASSERT_NE(delta, nullptr);
+  const Comparison beside = compare(scene, models_to_compare(scene), plain());
+  EXPECT_NEAR(delta->without, test::figure(beside.a, "delta.crank"), 1e-6);  // 0.09865
+  EXPECT_NEAR(delta->full, test::figure(beside.b, "delta.crank"), 1e-6);     // 0.11119
 }
 
 }  // namespace
