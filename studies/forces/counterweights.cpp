@@ -25,13 +25,13 @@ Force2 added(double moment, const PositionForces& p) {
 std::vector<ForceHarmonic> harmonics(const std::vector<double>& values, int turns, double* mean) {
   const std::size_t n = values.size() - 1;
   std::vector<ForceHarmonic> orders;
-  for (int k = 0; k <= highest_order; ++k) {
+  for (int k = 0; k <= highest_order * turns; ++k) {
     std::complex<double> sum = 0;
     for (std::size_t i = 0; i < n; ++i)
-      sum += values[i] * std::polar(1.0, -k * turn * turns * static_cast<double>(i) / static_cast<double>(n));
+      sum += values[i] * std::polar(1.0, -k * turn * static_cast<double>(i) / static_cast<double>(n));
     sum /= static_cast<double>(n);
     if (k == 0 && mean) *mean = sum.real();
-    if (k > 0) orders.push_back({k, {2 * std::abs(sum)}, -std::arg(sum)});
+    if (k > 0) orders.push_back({static_cast<double>(k) / turns, {2 * std::abs(sum)}, -std::arg(sum)});
   }
   return orders;
 }
@@ -83,6 +83,7 @@ std::optional<Balancing> balancing_of(const MechanismData& data, const ForceCycl
         phi, values, [&](double x) { return value(at(x)); }, largest);
   };
   const int turns = static_cast<int>(std::lround(turn_of_crank.cycle / turn));
+  const auto first = static_cast<std::size_t>(turns - 1);  // order 1
   const auto propose = [&](const std::string& name, double moment) {
     Counterweight c;
     c.name = name;
@@ -98,8 +99,8 @@ std::optional<Balancing> balancing_of(const MechanismData& data, const ForceCycl
     // The bearing carries it: the frame's force on the crank is less by the counterweight's inertia force.
     c.peak_bearing =
         peak([&](const PositionForces& p) { return (p.forces.joints[0].force - added(moment, p)).magnitude(); });
-    c.first_x = measured_harmonics(x, turns, c.peak_force.value).front().amplitude;
-    c.first_y = measured_harmonics(y, turns, c.peak_force.value).front().amplitude;
+    c.first_x = measured_harmonics(x, turns, c.peak_force.value)[first].amplitude;
+    c.first_y = measured_harmonics(y, turns, c.peak_force.value)[first].amplitude;
     out.counterweights.push_back(std::move(c));
   };
   propose("as it is", 0);

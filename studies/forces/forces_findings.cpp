@@ -185,7 +185,7 @@ Rows harmonic_table(const ForceCycle& c, bool on_terminal) {
                    .headed(fmt::format("harmonics, {} motion", c.label))
                    .fold()
                    .always()
-                   .only_for_people("order", [&](std::size_t k) { return c.shaking_x[k].order; })
+                   .only_for_people("order", [&](std::size_t k) { return c.shaking_x[k].order; }, {.digits = 3})
                    .only_for_people("along [N]", amplitude(c.shaking_x))
                    .only_for_people("across [N]", amplitude(c.shaking_y))
                    .only_for_people("moment [N·m]", amplitude(c.shaking_couple))

@@ -317,5 +317,19 @@ TEST(ForcesStudy, OutputHoldsBothProblemsAndIsValidJson) {
   EXPECT_NE(html_of(report).find("Friction circle"), std::string::npos);
 }
 
+// A four-stroke engine's cycle has half orders, too; here by a load of one sine of order 1½ over two turns.
+TEST(ShakingForce, OfTwoTurnsHasHalfOrders) {
+  std::vector<double> values;
+  constexpr int cells = 720;
+  for (int i = 0; i <= cells; ++i)
+    values.push_back(3 * std::cos(1.5 * 4 * pi * i / cells - 0.4) + std::cos(4 * pi * i / cells));
+  const std::vector<ForceHarmonic> orders = harmonics(values, 2);
+  ASSERT_EQ(orders.size(), 2u * highest_order);
+  for (const ForceHarmonic& h : orders)
+    EXPECT_NEAR(h.amplitude.value, h.order == 1.5 ? 3 : h.order == 1 ? 1 : 0, 1e-12) << h.order;
+  EXPECT_NEAR(orders[2].phase, 0.4, 1e-12);
+  EXPECT_EQ(orders.front().order, 0.5);
+}
+
 }  // namespace
 }  // namespace kurbel::forces_test
