@@ -98,8 +98,9 @@ double FigureDifference::weight() const {
 }
 
 bool FigureDifference::differs() const {
+  constexpr double rounding = 1e-10;  // of the larger value, or of the figure's scale
   const auto by = change();
-  return !by || std::abs(by->value) > by->error.value_or(0);
+  return !by || (std::abs(by->value) > by->error.value_or(0) && weight() > rounding);
 }
 
 MachineDifference difference_between(const MachineQuestion& a, const MachineQuestion& b, const std::string& of) {

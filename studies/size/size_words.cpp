@@ -41,7 +41,7 @@ std::string on_what(const Sizing& s) {
 std::string without_flywheel(const Sizing& s) {
   const double others = s.motor_inertia + s.gearbox_inertia + s.other_inertia;
   const double needed = exact_method(s).flywheel.value + others;
-  constexpr double rounding = 1e-12;  // of the inertias
+  constexpr double rounding = 1e-9;  // of the inertias
   return needed > rounding * others
              ? fmt::format("of the drive's {:.4g} kg·m² on {} {:.4g} kg·m² suffice", others, on_what(s), needed)
              : std::string("its torques would not make the speed fluctuate as much with any inertia");

@@ -97,6 +97,8 @@ class UncertaintyWork {
                           figure.figure.name, swept_[p].path));
           share.gradient = 0, share.deviation = {};
         }
+        constexpr double rounding = 1e-10;  // of the figure
+        if (share.deviation.value <= rounding * std::abs(figure.value)) share.gradient = 0, share.deviation.value = 0;
         squares += share.deviation.value * share.deviation.value;
         figure.shares.push_back(share);
       }

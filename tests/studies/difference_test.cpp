@@ -1,6 +1,7 @@
 // difference_test.cpp — two machines side by side: keys that differ, figures that differ by more than their errors.
 #include "studies/difference/difference.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -113,6 +114,24 @@ TEST(Difference, OfAMachineThatFailsIsIncomplete) {
   EXPECT_FALSE(d.complete());
   EXPECT_FALSE(findings_of(d).complete);
   EXPECT_NE(findings_of(d).conclusion().find("no sure answer"), std::string::npos);
+}
+
+// ζ is given: that it comes out as 0.02 and 0.02 (1 + 3e-15) is rounding.
+TEST(Difference, RoundingIsNone) {
+  const auto with = [](const char* stiffness) {
+    MachineQuestion q;
+    q.text = fmt::format(
+        "line = [\"a\", \"k\", \"b\"]\na = {{ kind = \"inertia\", inertia = \"0.5 kg*m2\" }}\n"
+        "k = {{ kind = \"coupling\", stiffness = \"{}\", damping_ratio = 0.02 }}\n"
+        "b = {{ kind = \"flywheel\", inertia = \"2 kg*m2\" }}\n"
+        "effects = {{ elasticity = true }}\nrun = {{ until = \"1 s\" }}\n",
+        stiffness);
+    q.file = "zeta.toml", q.of = SweepStudy::modes;
+    return q;
+  };
+  const MachineDifference d = difference_between(with("20 kN*m/rad"), with("40 kN*m/rad"), "modes");
+  EXPECT_FALSE(figure(d, "damping_ratio.1").differs());
+  EXPECT_TRUE(figure(d, "natural_frequency.1").differs());
 }
 
 }  // namespace
