@@ -78,7 +78,7 @@ std::string in_words(const Figure& f) {
 
 std::string sure(const Figure& f) { return with_error(f, f.unit); }
 SpeedUnit speed_unit_of(const Result& r) { return r.model ? r.model->scene.speed_unit : SpeedUnit{}; }
-bool has_known_time(const Figure& f) { return f.at && f.at_error.value_or(0) <= std::abs(*f.at); }
+bool has_known_time(const Figure& f) { return f.at && f.at_error.value_or(0) <= 0.5 * std::abs(*f.at); }
 std::string at_time(const Figure& f) { return has_known_time(f) ? "at " + with_error({*f.at, f.at_error}, "s") : ""; }
 
 std::optional<double> largest_after_start(const Result& r, const Figure& peak) {
