@@ -166,9 +166,8 @@ class Study {
     for (const std::string& note : substitutes(*model_)) found_.notes.push_back(note);
     if (!options_.speed && orbit_ && orbit_->repeats() && orbit_->map)
       found_.outside_data = outside_data(*orbit_->map, orbit_->point);
-    else if (lies_beyond_a_table(*model_, point.speed))
-      found_.outside_data = {
-          "this speed lies beyond the end of a table over the speed, whose slope there is not known"};
+    else if (const Network::DataRange* table = table_left_at(*model_, point.speed))
+      found_.outside_data = {beyond_in_words(*model_, *table, point.speed)};
     note_unsteady_motion();
     if (!samples_ || options_.speed) return;
     found_.cycle = response_of_samples(samples_->torque, samples_->mean->speed, samples_->time);

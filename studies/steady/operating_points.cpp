@@ -157,7 +157,7 @@ OperatingDiagram operating_diagram(RigidMachine& machine, int direction, const L
     const MeanTorques below = mean.at(w - h), above = mean.at(w + h);
     point.drive_slope = (above.drive - below.drive) / (2 * h);
     point.load_slope = (above.load - below.load) / (2 * h);
-    point.beyond_data = lies_beyond_a_table(machine.model(), here.omega);
+    point.beyond_data = table_left_at(machine.model(), here.omega) != nullptr;
     if (!point.beyond_data) measure_errors(here, finer.at(here.omega), within, point);
     constexpr double rounding = 1e-12;  // what a load stores it gives back
     if (std::abs(here.load) <= rounding * here.turnover) point.torque.value = 0;

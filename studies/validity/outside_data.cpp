@@ -29,9 +29,17 @@ double slack(const DataRange& range) { return 1e-9 * (range.high - range.low); }
 bool is_left_below(const DataRange& range, double x) { return !is_said(range.below) && x < range.low - slack(range); }
 bool is_left_above(const DataRange& range, double x) { return !is_said(range.above) && x > range.high + slack(range); }
 
+bool is_over_speed(const DataRange& range) {
+  return range.over == DataRange::Over::speed || range.over == DataRange::Over::size_of_speed;
+}
+// At this speed of the link, of a table over speed.
+double place_in(const DataRange& range, const Model& model, double link_speed) {
+  const double speed = model.node_ratio[at(range.node)] * link_speed;
+  return range.over == DataRange::Over::size_of_speed ? std::abs(speed) : speed;
+}
+
 std::string in_words(const DataRange& range, double x, const SpeedUnit& unit) {
-  const bool speed = range.over == DataRange::Over::speed || range.over == DataRange::Over::size_of_speed;
-  return speed ? unit.text(x, 6) : with_unit(x, range.unit, 6);
+  return is_over_speed(range) ? unit.text(x, 6) : with_unit(x, range.unit, 6);
 }
 
 // Angles of a cycle or a range: equidistant, and where the outputs of mechanisms reverse.
@@ -278,13 +286,20 @@ std::vector<std::string> outside_data(RigidMachine& machine, double speed) {
   return recorder.sentences();
 }
 
-bool lies_beyond_a_table(const Model& model, double link_speed) {
-  return std::any_of(model.network.ranges.begin(), model.network.ranges.end(), [&](const DataRange& range) {
-    const double speed = model.node_ratio[at(range.node)] * link_speed;
-    const double x = range.over == DataRange::Over::size_of_speed ? std::abs(speed) : speed;
-    return (range.over == DataRange::Over::speed || range.over == DataRange::Over::size_of_speed) &&
-           (is_left_below(range, x) || is_left_above(range, x));
-  });
+const DataRange* table_left_at(const Model& model, double link_speed) {
+  for (const DataRange& range : model.network.ranges) {
+    if (!is_over_speed(range)) continue;
+    const double x = place_in(range, model, link_speed);
+    if (is_left_below(range, x) || is_left_above(range, x)) return &range;
+  }
+  return nullptr;
+}
+
+std::string beyond_in_words(const Model& model, const DataRange& table, double link_speed) {
+  const double x = place_in(table, model, link_speed), end = x < table.low ? table.low : table.high;
+  return fmt::format("this speed lies outside the table of {} of \"{}\", which {} {}; its slope there is not known",
+                     table.of, table.component, x < table.low ? "begins at" : "ends at",
+                     in_words(table, end, model.scene.speed_unit));
 }
 
 }  // namespace kurbel

@@ -67,7 +67,10 @@ std::vector<std::string> outside_data(const ReturnMap& map, const SteadyPoint& p
 // For the rigid machine over one cycle of its link at this speed [rad/s], ≠ 0. One sentence each.
 std::vector<std::string> outside_data(RigidMachine& machine, double speed);
 
-// Whether this speed of the link is beyond a table over speed [rad/s].
-bool lies_beyond_a_table(const Model& model, double link_speed);
+// The table over speed beyond whose end this speed of the link lies [rad/s]; null: none.
+const Network::DataRange* table_left_at(const Model& model, double link_speed);
+
+// "this speed lies outside the table of torque of "motor", which ends at 157 rad/s; its slope there is not known"
+std::string beyond_in_words(const Model& model, const Network::DataRange& table, double link_speed);
 
 }  // namespace kurbel

@@ -11,6 +11,7 @@
 
 #include "engine/scene/messages.h"
 #include "studies/forces/forces_findings.h"
+#include "studies/modes/modes.h"
 #include "studies/reduce/reduce.h"
 #include "studies/report/render.h"
 #include "studies/run/run_findings.h"
@@ -190,6 +191,28 @@ TEST(BeyondTables, ForcesUnderALoadFromOutsideHaveNoErrors) {
         << conclusion(output);
     EXPECT_EQ(f.outside_data.size(), 1u) << "once, though both problems leave it";
   }
+}
+
+// `modes` names the table outside of which it would linearise, and its end.
+TEST(BeyondTables, ASpeedOutsideATableNamesIt) {
+  const Scene scene = scene_from(R"(
+    line = ["motor", "shaft", "mill"]
+    shaft = { kind = "shaft", stiffness = "1 kN*m/rad" }
+    mill = { kind = "load", damping = "0.05 N*m*s/rad", inertia = "6 kg*m2" }
+    effects = { elasticity = true }
+    [motor]
+    kind = "motor"
+    inertia = "0.4 kg*m2"
+    [motor.torque]
+    over = "speed"
+    unit = ["rpm", "N*m"]
+    points = [[0, 600], [1600, 650], [1760, 255], [1796, 31]]
+  )");
+  EXPECT_EQ(
+      find_modes(scene, scene.effects, {.speed = 1800 * rpm}).outside_data,
+      std::vector<std::string>{"this speed lies outside the table of torque of \"motor\", which ends at 1796 rpm; "
+                               "its slope there is not known"});
+  EXPECT_TRUE(find_modes(scene, scene.effects, {.speed = 1700 * rpm}).outside_data.empty());
 }
 
 TEST(BeyondTables, ForcesInOtherMechanismsLikewise) {
