@@ -55,13 +55,27 @@ std::string OperatingDiagram::why_none(const std::string& link) const {
     return fmt::format(
         "stall: nothing drives \"{}\": the drive's mean torque is {} at every speed, and the loads' is not", link,
         strongest.value < -balance_error ? "negative" : "zero");
+  MeanTorques nearest = *least;
+  // Between the speeds of the curve the drive may be stronger, beside loads that hardly change there.
+  const auto after =
+      std::find_if(curve.begin() + 1, curve.end(), [&](const auto& m) { return m.omega >= strongest_at; });
+  if (after != curve.end()) {
+    const MeanTorques& before = *(after - 1);
+    const double part = (strongest_at - before.omega) / (after->omega - before.omega);
+    const double load = before.load + part * (after->load - before.load);
+    if (strongest.value - load > nearest.net())
+      nearest.omega = strongest_at, nearest.drive = strongest.value, nearest.load = load;
+  }
   if (least->net() < 0)
     return fmt::format(
         "stall: at every speed the loads' mean torque on \"{}\" exceeds the drive's, at the least by {} ({} against {} "
-        "at {}); the drive gives at most {} (at {}). {}",
-        link, with_unit(-least->net(), "N*m", 4), with_unit(least->load, "N*m", 5), with_unit(least->drive, "N*m", 5),
-        speed_text(speed_unit, least->omega), with_unit(strongest.value, "N*m", 5),
-        speed_text(speed_unit, strongest_at),
+        "at {}){}. {}",
+        link, with_unit(-nearest.net(), "N*m", 4), with_unit(nearest.load, "N*m", 5),
+        with_unit(nearest.drive, "N*m", 5), speed_text(speed_unit, nearest.omega),
+        nearest.omega == strongest_at
+            ? std::string()
+            : fmt::format("; the drive gives at most {} (at {})", with_unit(strongest.value, "N*m", 5),
+                          speed_text(speed_unit, strongest_at)),
         brakes.empty() ? "A stronger drive, a higher ratio, or a lighter load is needed"
                        : fmt::format("These loads include {}, which is on", brakes));
   const MeanTorques& last = curve.back();
