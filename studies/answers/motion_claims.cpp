@@ -13,8 +13,8 @@
 #include "engine/numerics/index.h"
 #include "engine/return_map/periodicity.h"
 #include "engine/run/sources.h"
-#include "engine/scene/effects.h"
 #include "mechanisms/reduced/mechanism.h"
+#include "studies/answers/higher_speeds.h"
 #include "studies/answers/holders.h"
 
 namespace kurbel {
@@ -197,7 +197,9 @@ class Judge {
     const bool by_loads = is_off() && speed() >= (1 - same_speed) * fastest && gains_speed;
     if (!by_loads) {
       if (is_commanded() || p.steady || p.run_down_begin || !(p.without_limit || too_few)) return {};
-      if (settles_at_a_higher_speed() || settles_later(too_few ? gains : 0)) return {};
+      if (settles_at_a_higher_speed(m_, outcome_.t, speed()) ||
+          settles_later(equations_, outcome_, speed(), watch_, budget_, too_few ? gains : 0))
+        return {};
     }
     return claimed(
         Predicate::runs_away,
@@ -209,61 +211,6 @@ class Judge {
                         : ", and " + p.verdict),
         link(), of_speed(r, std::abs(speed()), limit));
   }
-  // Over a cycle of the rigid machine at constant speed: whether loads and drag balance the drive at some higher speed.
-  bool settles_at_a_higher_speed() const try {
-    constexpr double most = 100, step = 1.5;
-    constexpr int places = 24;
-    const auto rigid = compile(m_.scene, without_elasticity(m_.effects));
-    Equations equations(rigid, false);
-    const std::size_t shaft = at(rigid->shaft_of_node[at(rigid->reduction_node)]);
-    const double cycle = rigid->cycle > 0 ? rigid->cycle : 2 * std::numbers::pi;
-    for (double times = step; times < most; times *= step) {
-      double sum = 0;
-      for (int k = 0; k < places; ++k) {
-        const std::vector<double> y = equations.modes_from_scratch(outcome_.t, cycle * k / places, times * speed());
-        sum += rigid->gain_of_node[at(rigid->reduction_node)] * equations.snapshot(outcome_.t, y).alpha[shaft];
-      }
-      if (sum * speed() <= 0) return true;
-    }
-    return false;
-  } catch (const std::exception&) {  // nothing is known of higher speeds
-    return false;
-  }
-
-  // Tried: the run goes on to eight times its time. Its mean speeds over the time as long again, twice and four times as
-  // long grow by less from one to the next: slower than the logarithm of time, for what dampers take is not in the balance
-  // of the rigid machine. So does what does not come to `least` times the speed at the end. A trial that ends before knows
-  // nothing: by the budget that the run left, or by its evaluations. Few cycles (`least` > 0) are then no runaway.
-  bool settles_later(double least) const try {
-    const std::int64_t most = least > 0 ? 100 : 10;  // times the evaluations of the run; one of few cycles is short
-    Equations equations(equations_.shared_model(), false);
-    State state{outcome_.t, outcome_.state, equations_.modes()};
-    state.y.resize(equations.state_count());
-    std::array<double, 3> mean{};
-    double budget = budget_ - outcome_.statistics.cpu_seconds;
-    for (double& speed : mean) {
-      if (!(budget > 0)) return least > 0;
-      equations.bind(state.modes);
-      const double begin = equations.angle_with_turns(at(m_.reduction_angle), state.y);
-      RunOptions run{.tolerance = 1e-6,
-                     .method = "auto",
-                     .until = 2 * state.t,
-                     .budget = budget,
-                     .most_flow_calls = most * outcome_.statistics.stepper.flow_calls,
-                     .interrupted = watch_.interrupted,
-                     .progress = {}};
-      run.from = {state.t, state.y};
-      const RunOutcome on = integrate(equations, run, {});
-      if (!on.complete) return least > 0;
-      budget -= on.statistics.cpu_seconds;
-      speed = std::abs(equations.angle_with_turns(at(m_.reduction_angle), on.state) - begin) / (on.t - state.t);
-      state = {on.t, on.state, equations.modes()};
-    }
-    return !keeps_gaining(mean) || mean[2] < least * std::abs(this->speed());
-  } catch (const std::exception&) {  // nothing is known of later
-    return least > 0;
-  }
-
   // By an applied brake, or by friction against the acting torque; a link that never moved is reported as such.
   std::optional<Claim> held(double fastest) const {
     const bool moves = std::abs(speed()) > dust * m_.speed_scale, ever = fastest > dust * m_.speed_scale;

@@ -1,8 +1,6 @@
 // motion_claims.h — does the machine do its work at all? Claims from the motion of a run and its final state.
 #pragma once
 
-#include <array>
-
 #include "studies/answers/link_recorder.h"
 #include "studies/answers/slip_recorder.h"
 #include "studies/findings/result.h"
@@ -17,11 +15,6 @@ inline constexpr double far_away = 1.5;  // times the usual speed: nothing in th
 // final state. `watch` ends trials; `budget`: of the run and its trials [s of processor time].
 Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Result& result, const SlipRecorder& slips,
                      const LinkRecorder& link, const Watch& watch, double budget);
-
-// Of mean speeds over doubling times: each is higher than the one before it, and by no less.
-inline bool keeps_gaining(const std::array<double, 3>& mean) {
-  return mean[2] > mean[1] && mean[2] - mean[1] >= mean[1] - mean[0];
-}
 
 // For a completed run, with the modes at its end: closed clutches and belts that slip to the end or temporarily; a
 // brake that is applied and does not stop its shaft; only in the list of claims: clutches that engage, are opened by
