@@ -63,7 +63,9 @@ Holders::Holders(const Equations& equations, double t, std::size_t shaft)
     : equations_(equations), m_(equations.model()), end_(t), joined_(shafts_joined_to(m_, shaft, [&](std::size_t j) {
         const ElasticJoint& joint = m_.elastic[j];
         return !joint.springless && !(joint.slips && equations_.modes().slip[j] != 0);
-      })) {}
+      })) {
+  for (std::size_t c = 0; c < equations.ties().contacts().size(); ++c) torque_.push_back(equations.ties().torque(c));
+}
 
 bool Holders::stands(int node) const {
   const std::size_t shaft = at(m_.shaft_of_node[at(node)]);
@@ -109,6 +111,23 @@ std::string Holders::beside(const char* load) const {
   });
   const std::string names = any_load ? std::string() : components();
   return names.empty() ? load : names;
+}
+
+double Holders::torque() const {
+  const std::string* const applied = brake();
+  const std::size_t braked = applied ? at(m_.shaft_of_node[at(m_.network.ports.at(*applied).in)]) : 0;
+  double sum = 0;
+  for (std::size_t c = 0; c < torque_.size(); ++c) {
+    const Contact& contact = equations_.ties().contacts()[c];
+    if (contact.kind == Contact::Kind::connection || sense_of(contact, equations_.modes()) != 0) continue;
+    if (applied && (contact.kind != Contact::Kind::frame || at(contact.index) != braked)) continue;
+    double motion = 0;  // of the contact, by that of the link
+    for (const ShaftGain& part : contact.motion)
+      if (const std::size_t reference = at(m_.shafts[at(part.shaft)].reference); joined_[at(part.shaft)] != 0)
+        motion += part.gain * m_.node_ratio[reference] / m_.gain_of_node[reference];
+    sum += torque_[c] * motion;
+  }
+  return sum;
 }
 
 bool Holders::any() const {

@@ -20,8 +20,8 @@ double driving_torque(const Equations& equations, const Snapshot& now, std::size
 
 class Holders {
  public:
-  // Of what gears, springs, belts and closed clutches join to this shaft. `equations`: in the modes at the run's end `t`;
-  // they must outlive it.
+  // Of what gears, springs, belts and closed clutches join to this shaft. `equations`: in the modes at the run's end `t`,
+  // evaluated there last; they must outlive it.
   Holders(const Equations& equations, double t, std::size_t shaft);
 
   // An applied brake, by command or always, whose shaft stands; null: none. `put_on`: only of those off at the start.
@@ -34,6 +34,8 @@ class Holders {
   std::string beside(const char* load) const;
   // Whether any shaft among them stands.
   bool any() const;
+  // What acts on those components, reduced to the link: the torque of their contacts, as in the notes on what is held [N·m].
+  double torque() const;
 
  private:
   double command_of(const std::string& component) const;  // in force at the end; 1 if there is none
@@ -42,7 +44,8 @@ class Holders {
   const Equations& equations_;
   const Model& m_;
   double end_;
-  std::vector<char> joined_;  // by shaft
+  std::vector<char> joined_;    // by shaft
+  std::vector<double> torque_;  // by contact, at the end [N·m]
 };
 
 }  // namespace kurbel

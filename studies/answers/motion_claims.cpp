@@ -94,19 +94,6 @@ class Judge {
     return !sources.none() && !sources.drive(equations_.modes().active);
   }
 
-  // Torque that would move the link if nothing held it, reduced to it [N·m]: all except what opposes motion, and what an
-  // open clutch parts from it.
-  double acts() const {
-    const std::vector<char> joined = shafts_joined_to(m_, shaft_, [&](std::size_t j) {
-      return !(m_.elastic[j].slips && equations_.modes().slip[j] != 0 && now_.joint_torque[m_.elastic[j].joint] == 0);
-    });
-    double torque = 0;
-    for (std::size_t e = 0; e < m_.network.elements.size(); ++e)
-      if (!m_.network.elements[e].element->is.directional &&
-          joined[at(m_.shaft_of_node[at(m_.network.elements[e].node)])] != 0)
-        torque += now_.sums.element_torque[e] * m_.node_ratio[at(m_.network.elements[e].node)];
-    return torque;
-  }
   // --- claims ---
 
   // The next step of the sequence waits for an angle of a shaft that is held.
@@ -187,6 +174,16 @@ class Judge {
         link(), of_speed(r, speed(), 0));
   }
 
+  // What drives it where no source does, and which brake that is on does not hold that, or not yet.
+  std::string driven_by_loads(const Claims& contacts) const {
+    const auto weak = std::find_if(contacts.begin(), contacts.end(),
+                                   [](const Claim& c) { return c.predicate == Predicate::brake_does_not_stop; });
+    const std::string* const brake = weak != contacts.end() ? &weak->of : holders_.slipping_brake();
+    if (!brake) return "its loads drive it, and nothing holds them";
+    return fmt::format("its loads drive it, and \"{}\" {}", *brake,
+                       weak == contacts.end() && slows_down() ? "has not stopped it yet" : "does not hold them");
+  }
+
   // `fastest`: of the run; what nothing drives any more, and gains, is then driven by its loads.
   std::optional<Claim> runs_away(const Result& r, double fastest, const Claims& contacts) const {
     const Periods& p = r.periods;
@@ -215,14 +212,14 @@ class Judge {
   std::optional<Claim> held(double fastest) const {
     const bool moves = std::abs(speed()) > dust * m_.speed_scale, ever = fastest > dust * m_.speed_scale;
     if (!rests() && (moves || (ever && holders_.gears().empty()))) return {};
-    const bool moved = fastest > stands * m_.speed_scale, anything_acts = std::abs(acts()) > drives * m_.torque_scale;
+    const double acts = std::abs(holders_.torque());
+    const bool moved = fastest > stands * m_.speed_scale, anything_acts = acts > drives * m_.torque_scale;
     const std::string holders = holders_.components();
     std::optional<Claim> claim;
     if (!holders.empty() && (anything_acts || holders_.brake())) {
-      const std::string against =
-          anything_acts ? fmt::format(" against the {:.4g} N·m that act on it", std::abs(acts())) : "";
+      const std::string against = anything_acts ? fmt::format(" against the {:.4g} N·m that act on it", acts) : "";
       claim = claimed(Predicate::held_by, fmt::format("\"{}\" is held by {}{}", link(), holders, against), link(),
-                      {.at = rest(), .value = std::abs(acts()), .unit = "N*m"});
+                      {.at = rest(), .value = acts, .unit = "N*m"});
       if (claim && anything_acts) claim->clause = "held by " + holders + against;
     } else if (!moved && (is_held() || !ever))
       claim = claimed(Predicate::does_not_move, fmt::format("\"{}\" does not move", link()), link());
