@@ -202,7 +202,7 @@ class ContactJudge {
       const bool driven =
           ratio != 0 && driving_torque(equations_, now_, shaft) * speed / ratio >= most_of * std::abs(torque * speed);
       if (put_on > 0 && is_full(element.component))
-        does_not_stop(element.component, put_on, speed, change, std::abs(torque), driven, slips);
+        does_not_stop(e, put_on, speed, change, std::abs(torque), driven, slips);
       else if (put_on > 0)
         continue;  // its ramp goes on
       else
@@ -242,8 +242,9 @@ class ContactJudge {
     return c < 0 || equations_.modes().command[at(c)].holds_still();
   }
   // `driven`: what drives the shaft takes nearly all of the brake's torque, so that what is left does not stop it.
-  void does_not_stop(const std::string& brake, double put_on, double speed, double change, double torque, bool driven,
+  void does_not_stop(std::size_t element, double put_on, double speed, double change, double torque, bool driven,
                      const std::string& slips) {
+    const std::string& brake = m_.network.elements[element].component;
     // Shafts that run steadily with it slow down within a cycle only, unless a sequence repeats its braking. Whether they do
     // is not judged from a brake of the last moments.
     constexpr double long_enough = 0.25;  // of the run
@@ -253,7 +254,15 @@ class ContactJudge {
                  more = speed * change < 0 && !goes_on ? std::abs(speed / change) : HUGE_VAL;
     const Evidence evidence{
         .at = put_on, .value = std::abs(speed), .limit = 0, .error = error_of_speeds(brake), .unit = "rad/s"};
-    if (more == HUGE_VAL || (driven && more > outcome_.t))
+    const bool is_weak = more == HUGE_VAL || (driven && more > outcome_.t);
+    if (const std::optional<std::string> held = until_it_broke_away(element, put_on)) {
+      if (is_weak || is_done())
+        add(claims_,
+            claimed(is_weak ? Predicate::brake_does_not_stop : Predicate::brake_has_not_stopped,
+                    fmt::format("\"{}\" {}; it slips at {} at the end", brake, *held, slips), brake, evidence));
+      return;
+    }
+    if (is_weak)
       add(claims_, claimed(Predicate::brake_does_not_stop,
                            fmt::format("\"{}\" does not stop it: it slips at {} after {:.3g} s; its {:.4g} N·m are too "
                                        "weak for what drives",
@@ -265,6 +274,28 @@ class ContactJudge {
                                        "more are needed at this rate",
                                        brake, slips, braked, more),
                            brake, evidence));
+  }
+  // "stopped it at 4.2 s and held it until 13 s, when …": of a brake whose shaft has stood since it was put on, at first or
+  // later, and moves again.
+  std::optional<std::string> until_it_broke_away(std::size_t element, double put_on) const {
+    const Network::ShaftElement& brake = m_.network.elements[element];
+    const std::size_t shaft = at(m_.shaft_of_node[at(brake.node)]);
+    const std::string name = m_.node_label(m_.shafts[shaft].reference);
+    const auto last = [&](EventKind kind, double before) {
+      return std::find_if(outcome_.events.rbegin(), outcome_.events.rend(), [&](const Event& event) {
+        return event.kind == kind && event.component == name && event.t >= put_on && event.t <= before;
+      });
+    };
+    const auto moves = last(EventKind::motion, outcome_.t);
+    if (moves == outcome_.events.rend()) return {};
+    const auto rests = last(EventKind::rest, moves->t);
+    const bool stopped = rests != outcome_.events.rend();
+    if (moves->t - (stopped ? rests->t : put_on) <= 0) return {};
+    equations_.ties().find_holds(now_.now);
+    const Hold hold = equations_.ties().element_hold()[element];
+    return fmt::format("{}held it until {:.4g} s, when more acted on it than the {:.4g} N·m that it can hold",
+                       stopped ? fmt::format("stopped it at {:.4g} s and ", rests->t) : "", moves->t,
+                       std::max(std::abs(hold.low), hold.high));
   }
   bool is_done() const {
     return !m_.scene.sequence.repeat && equations_.modes().next_step >= m_.scene.sequence.steps.size();

@@ -39,7 +39,7 @@ constexpr std::array kinds = {
         "\"compressor\" does not start: its loads hold the 91.94 N·m that drive it", "run, compare"},
     ClaimKind{brake_does_not_stop, runs, fault, above,
               "a brake that was put on slips at the end, and at that deceleration would not stop its shaft within the "
-              "time of the run",
+              "time of the run; it may have stopped it before, and held it for a time",
               "at: it was put on; value: speed of its shaft [rad/s]",
               "\"brake\" does not stop it: it slips at 120 rpm after 2.5 s; its 40 N·m are too weak for what drives",
               "run, compare"},
