@@ -119,6 +119,7 @@ class Judge {
     if (!recorder_.turned() && is_free && std::abs(speed()) > 0.5 * recorder_.fastest() &&
         left > short_while * std::abs(torque))
       return {};
+    if (leaves()) return {};
     const Evidence evidence{.at = rest(), .value = std::abs(torque), .limit = 0, .unit = "N*m"};
     if (!recorder_.turned()) {
       const std::string holders = holders_.beside("its loads");
@@ -145,6 +146,24 @@ class Judge {
         Predicate::stalls,
         fmt::format("\"{}\" stalls at {} after {:.3g} s: {}", link(), text_of_place(angle()), *evidence.at, why),
         link(), evidence);
+  }
+
+  // It never turned and nothing holds it, but it is faster than ever, and gains by more than it has on average: it comes to no
+  // balance. What gains less hardly begins, and comes to one.
+  bool leaves() const {
+    const double gains = gain() * now_.alpha[shaft_] * duration();
+    return !recorder_.turned() && !is_held() && !holders_.any() && !recorder_.swings() &&
+           std::abs(speed()) > std::max(dust * m_.speed_scale, (1 - same_speed) * recorder_.fastest()) &&
+           gains * speed() > (1 + changes_by) * speed() * speed();
+  }
+  std::optional<Claim> gathers_speed(const Result& r) const {
+    if (is_commanded() || !leaves() || !(std::abs(drive()) > drives * m_.torque_scale)) return {};
+    Evidence evidence = of_speed(r, speed(), 0);
+    evidence.limit.reset();
+    return claimed(Predicate::moves,
+                   fmt::format("\"{}\" moves at {} after {:.4g} s, and still gathers speed", link(),
+                               m_.scene.speed_unit.text(speed(), 4), outcome_.t),
+                   link(), std::move(evidence));
   }
 
   // By more than half a turn from its foremost position, and by more than it fell and came forwards again before; or, with
@@ -380,7 +399,9 @@ Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Resu
     if (std::none_of(claims.begin(), claims.end(), [](const Claim& c) { return c.is_bad(); })) {
       std::optional<Claim> vibrates = judge.vibrates(result.periods), held = judge.motor_held();
       if (held) held->in_conclusion = vibrates.has_value();  // else it is said with the link's speed
+      const bool is_said = vibrates.has_value();
       add(claims, vibrates ? std::move(vibrates) : judge.swings());
+      if (!is_said) add(claims, judge.gathers_speed(result));
       add(claims, std::move(held));
     }
   }

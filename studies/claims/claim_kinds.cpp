@@ -143,7 +143,8 @@ constexpr std::array kinds = {
               "\"motor\" has not reached a steady motion by 8 s: the mean speed is still 0.852 % below its final value",
               "run, compare, modes"},
     ClaimKind{moves, runs, note, anything,
-              "the run is too short for any other claim; a speed beyond 1.5 times the usual one is stated",
+              "the run is too short for any other claim; a speed beyond 1.5 times the usual one is stated. Or the link "
+              "was always slower than 0.1 % of its usual speed, and gathers speed that nothing balances",
               "at: end of the run; value: speed at the end [rad/s]", "\"crank\" is at 149.7 rad/s after 0.1 s",
               "run, compare"},
     ClaimKind{starts, runs, note, anything, "the link stands at the start, and is driven and moves later",
