@@ -16,6 +16,7 @@
 #include "mechanisms/reduced/mechanism.h"
 #include "studies/answers/higher_speeds.h"
 #include "studies/answers/holders.h"
+#include "studies/answers/starter_claims.h"
 
 namespace kurbel {
 namespace {
@@ -396,6 +397,9 @@ Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Resu
              judge.backwards(result, contacts), judge.runs_away(result, fastest, contacts), judge.hangs(result.periods),
              judge.never_completes_a_cycle(result, fastest), judge.held(fastest), judge.starts(result, fastest)})
       add(claims, std::move(claim));
+    if (result.periods.steady && !result.periods.run_down_begin)
+      for (Claim& waits : starter_claims(equations, outcome.t, outcome.state, result.periods.steady_speed))
+        claims.push_back(std::move(waits));
     if (std::none_of(claims.begin(), claims.end(), [](const Claim& c) { return c.is_bad(); })) {
       std::optional<Claim> vibrates = judge.vibrates(result.periods), held = judge.motor_held();
       if (held) held->in_conclusion = vibrates.has_value();  // else it is said with the link's speed

@@ -33,6 +33,7 @@ enum class Predicate {
   brake_does_not_stop,
   turns_back,
   hangs_below_breakdown,
+  starter_waits,
   runs_away,
   does_not_get_round,
   slips_to_the_end,

@@ -60,6 +60,12 @@ constexpr std::array kinds = {
               "\"motor\" does not come up to speed: it stays at 320 rpm, below the 1280 rpm of its breakdown torque; "
               "its loads take all its torque there",
               "run, compare"},
+    ClaimKind{starter_waits, runs, fault, anything,
+              "in steady motion a star-delta starter has not come to its switching speed, or the current of a DC motor "
+              "on starting resistances not down to its switching current",
+              "value: mean speed of the motor [rad/s], or its current [A]; limit: the one at which it switches",
+              "\"motor\" stays in star: its switching speed, 1420 rpm, is not reached (1376 rpm)",
+              "run, compare, steady"},
     ClaimKind{runs_away, runs, fault, above,
               "the speed exceeds 1.5 times the usual one, its growth from cycle to cycle does not decrease, and at no "
               "higher speed (up to a hundred times) do loads and drag balance the drive. A trial of up to eight times "

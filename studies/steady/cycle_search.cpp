@@ -17,6 +17,7 @@
 #include "engine/scene/units.h"
 #include "engine/values/dense_tables.h"
 #include "mechanisms/reduced/mechanism.h"
+#include "studies/answers/starter_claims.h"
 #include "studies/findings/trace.h"
 #include "studies/run/compare.h"
 #include "studies/run/measured_errors.h"
@@ -322,6 +323,11 @@ class Search {
             "\"{}\" reaches its breakdown torque within the cycle: a heavier load, or a lower voltage, may stall it",
             f.of));
     find_loads();
+    if (const Figure* const mean = out_.find("mean_speed." + name_of_link(*out_.model))) {
+      Equations equations(map_->shared_model(), false);
+      const std::vector<double> y = map_->place(equations, out_.point.z);
+      out_.starters = starter_claims(equations, map_->start_time(), y, mean->value);
+    }
     if (options_.traces) follow();
   }
 

@@ -90,6 +90,7 @@ struct SteadyCycle {
   std::vector<OrdersOf> orders;           // of speeds and torques; also with errors
   std::vector<ShaftFluctuation> shafts;
   std::vector<MotorUse> motors;
+  Claims starters = {};                       // motors whose starters wait for ever
   SteadyLoads loads;                          // of its joints, if any has limits
   double work_residual = 0;                   // of the balance of works in the cycle, over the driving work
   double added_torque = 0;                    // constant torque besides the drive, for the demanded mean speed [N·m]

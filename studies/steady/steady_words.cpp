@@ -141,6 +141,7 @@ Claims claims_of(const SteadyStudy& s) {
                    .error = c.multiplier_errors.empty() ? std::nullopt : std::optional(c.multiplier_errors.front())}));
   for (const std::string& sentence : last.outside_data)
     add(claims, claimed(Predicate::outside_data, capitalised(sentence)));
+  claims.insert(claims.end(), last.starters.begin(), last.starters.end());
   for (const MotorUse& use : last.motors) {
     const Figure* rms = last.find("rms_drive_torque." + use.component);
     if (!use.rated) continue;

@@ -28,7 +28,7 @@ SENTENCES = {
 }
 # The same of typed claims (docs/claims.md).
 PREDICATES = {
-    "jams": "jams", "stalls": "stalls", "does_not_start": "does not start", "turns_back": "turns back", "runs_away": "runs away", "hangs_below_breakdown": "hangs",
+    "jams": "jams", "stalls": "stalls", "does_not_start": "does not start", "turns_back": "turns back", "runs_away": "runs away", "hangs_below_breakdown": "hangs", "starter_waits": "starter waits",
     "does_not_get_round": "no round", "slips_to_the_end": "slips to the end", "brake_does_not_stop": "brake too weak",
     "brake_has_not_stopped": "brake not done", "clutch_slips_closed": "lets go", "limiter_slips": "lets go", "belt_slips": "slips at times",
     "runs_steadily": "steady", "goes_through_sequence": "sequence done", "not_steady_yet": "not steady", "at_rest": "at rest", "moves": "ends",
