@@ -341,11 +341,4 @@ std::optional<Claim> joints_jam(const Model& m, const RunOutcome& outcome) {
   return {};
 }
 
-std::string driven_by_loads(const Claims& contacts) {
-  const auto weak = std::find_if(contacts.begin(), contacts.end(),
-                                 [](const Claim& c) { return c.predicate == Predicate::brake_does_not_stop; });
-  if (weak == contacts.end()) return "its loads drive it, and nothing holds them";
-  return fmt::format("its loads drive it, and \"{}\" does not hold them", weak->of);
-}
-
 }  // namespace kurbel

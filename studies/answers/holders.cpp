@@ -87,6 +87,17 @@ const std::string* Holders::brake(bool put_on) const {
   return nullptr;
 }
 
+const std::string* Holders::slipping_brake() const {
+  for (std::size_t e = 0; e < m_.network.elements.size(); ++e) {
+    const Network::ShaftElement& element = m_.network.elements[e];
+    const std::size_t shaft = at(m_.shaft_of_node[at(element.node)]);
+    if (m_.network.kind_of(element.component) == "brake" && equations_.modes().active[e] != 0 && joined_[shaft] != 0 &&
+        !equations_.at_standstill(shaft) && command_of(element.component) > 0)
+      return &element.component;
+  }
+  return nullptr;
+}
+
 std::vector<std::size_t> Holders::gears() const {
   std::vector<std::size_t> list;
   for (std::size_t k = 0; k < m_.relations.size(); ++k)

@@ -26,6 +26,8 @@ class Holders {
 
   // An applied brake, by command or always, whose shaft stands; null: none. `put_on`: only of those off at the start.
   const std::string* brake(bool put_on = false) const;
+  // A brake that is on, whose shaft still turns; null: none.
+  const std::string* slipping_brake() const;
   // Relations whose losses hold what they join.
   std::vector<std::size_t> gears() const;
   // "gear", "bearing": the brake, else components that oppose motion on standing shafts and gears locked by their losses.

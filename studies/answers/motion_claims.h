@@ -21,9 +21,6 @@ Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Resu
 // command, or overrun. `result` contains the errors of its final state.
 Claims contact_claims(Equations& equations, const RunOutcome& outcome, const Result& result, const SlipRecorder& slips);
 
-// "its loads drive it, and nothing holds them", or the brake among those claims that does not.
-std::string driven_by_loads(const Claims& contacts);
-
 // Of a machine whose motion ended where the friction in a mechanism's joints allows none; empty: it did not.
 std::optional<Claim> joints_jam(const Model& model, const RunOutcome& outcome);
 
