@@ -49,6 +49,12 @@ class RunWords {
               at_the_end()),
           link(), {.at = p_.run_down_begin.value_or(r_.until), .value = p_.remaining, .unit = "rad/s"});
     if (end.empty()) return {};
+    if (const Event* const rest = rests ? came_to_rest() : nullptr) {
+      Evidence evidence = at_end;
+      evidence.at = rest->t;
+      return claimed(Predicate::at_rest, fmt::format("\"{}\" comes to rest at {}{}", link(), seconds(rest->t), held()),
+                     link(), std::move(evidence));
+    }
     return claimed(
         rests ? Predicate::at_rest : Predicate::moves,
         fmt::format("\"{}\" is {} after {}{}{}", link(), end, seconds(r_.until), beyond(last->value), held()), link(),
@@ -56,6 +62,15 @@ class RunWords {
   }
 
  private:
+  // The event with which the link came to rest, and after which it has not moved; null: none is known.
+  const Event* came_to_rest() const {
+    const Model& m = *r_.model;
+    const std::string shaft = m.node_label(m.shafts[at(m.shaft_of_node[at(m.reduction_node)])].reference);
+    const auto last = std::find_if(r_.events.rbegin(), r_.events.rend(), [&](const Event& e) {
+      return e.component == shaft && (e.kind == EventKind::rest || e.kind == EventKind::motion);
+    });
+    return last != r_.events.rend() && last->kind == EventKind::rest && last->t > r_.begins_at ? &*last : nullptr;
+  }
   // Residual vibration in shafts that are held.
   bool all_but_rests(const Figure& last) const {
     return r_.model && std::abs(last.value) < 0.01 * r_.model->speed_scale;

@@ -142,7 +142,7 @@ constexpr std::array kinds = {
               "the link has moved, and stands at the end: its speed stays below 0.1 % of the usual one, or dry "
               "friction holds it soon after that (this hold is the time of rest if friction is the greater part of the "
               "braking torque at 0.1 % and no vibration reverses there)",
-              "at: of its rest; value: speed at the end [rad/s]", "\"pendulum\" is at rest after 6 s",
+              "at: of its rest; value: speed at the end [rad/s]", "\"wheel\" comes to rest at 3.024 s",
               "run, compare, steady, modes"},
     ClaimKind{not_steady_yet, runs, note, anything, "the mid speed is more than 0.1 % away from its limit",
               "at: end of the run; value: remaining change of the mid speed [rad/s]",

@@ -151,7 +151,10 @@ class Judge:
                 self.contradiction("comes to rest, but never moved", f"standstill said at {at:.4g} s")
             elif self.another_rest(at, m):
                 self.contradiction("comes to rest at another time", f"said {at:.4g}, sampled {m['rests_since']:.4g} s")
-        at_rest = any(w in self.run.conclusion for w in ("is at rest", "ends at rest", "is nearly at rest", "nearly at rest"))
+        at_rest = any(w in self.run.conclusion for w in ("is at rest", "ends at rest", "is nearly at rest", "nearly at rest", "comes to rest at"))
+        for claim in self.run.typed_of("at_rest"):
+            if "comes to rest at" in claim["text"] and m["end"] == "rests" and m["moves"] and self.another_rest(claim["at"], m):
+                self.contradiction("comes to rest at another time", f"said {claim['at']:.4g} s, sampled {m['rests_since']:.4g} s")
         if at_rest and m["fastest_late"] > 0.02 * self.usual:
             self.contradiction("at rest, but turns", f"{m['speed_at_end']:.4g} rad/s at the end, {m['fastest_late']:.4g} shortly before")
         acting = abs(m["load_at_end"]) + (abs(m["drive_at_end"]) if m["pushed_at_end"] else 0)

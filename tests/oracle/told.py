@@ -23,7 +23,7 @@ SENTENCES = {
     "steady": r'"([^"]+)" runs steadily at ',
     "sequence done": r'"([^"]+)" goes through its operating sequence',
     "not steady": r'"([^"]+)" has not reached a steady motion',
-    "ends": r'"([^"]+)" is (at rest|nearly at rest|at )',
+    "ends": r'"([^"]+)" (is at rest|is nearly at rest|is at |comes to rest at |moves at )',
     "too hot": r'"([^"]+)" gets too hot',
 }
 # The same of typed claims (docs/claims.md).
