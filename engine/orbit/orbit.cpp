@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "engine/model/stated_speed.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/orbit/link_speeds.h"
@@ -170,9 +171,11 @@ class Search {
     return text;
   }
   void run_away(double speed) {
-    end(Orbit::Kind::runaway, fmt::format("it runs away: at {:.4g} s a shaft turns at {:.3g} times its rated speed, "
-                                          "and nothing ends the acceleration",
-                                          state_.t, speed));
+    const std::string fast = states_rated_speed(m_)
+                                 ? fmt::format("a shaft turns at {:.3g} times its rated speed", speed)
+                                 : fmt::format("\"{}\" turns at {}", link(), m_.scene.speed_unit.text(link_speed(), 4));
+    end(Orbit::Kind::runaway,
+        fmt::format("it runs away: at {:.4g} s {}, and nothing ends the acceleration", state_.t, fast));
   }
 
   // A period without switching: its change, and whether it is small enough.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/model/stated_speed.h"
 #include "engine/return_map/periodicity.h"
 #include "engine/run/speed_history.h"
 
@@ -77,13 +78,13 @@ bool grows(const std::vector<double>& speeds) {
 std::string rest_in_words(const LastMotion& motion, const EventLog& events, const Model& m) {
   const auto [hundredth, thousandth, moving] = motion.times();
   const std::string link = m.node_label(m.reduction_node);
+  const std::string slow =
+      states_rated_speed(m) ? "0.1 % of its rated speed" : m.scene.speed_unit.text(1e-3 * m.speed_scale, 3);
   if (moving == 0) return "the machine stands from its start on";
-  if (thousandth == 0)
-    return fmt::format("the machine stays at rest: \"{}\" never reaches 0.1 % of its rated speed", link);
+  if (thousandth == 0) return fmt::format("the machine stays at rest: \"{}\" never reaches {}", link, slow);
   if (const Event* rest = rest_of(events, {hundredth, thousandth, moving}, m))
     return fmt::format("the machine comes to rest at {:.4g} s and stays there", rest->t);
-  return fmt::format("the machine slows down to rest: \"{}\" is below 0.1 % of its rated speed from {:.4g} s on", link,
-                     thousandth);
+  return fmt::format("the machine slows down to rest: \"{}\" is below {} from {:.4g} s on", link, slow, thousandth);
 }
 
 }  // namespace kurbel

@@ -10,6 +10,7 @@
 
 #include "drivetrain/induction/induction_law.h"
 #include "engine/model/model.h"
+#include "engine/model/stated_speed.h"
 #include "engine/numerics/index.h"
 #include "engine/return_map/periodicity.h"
 #include "engine/run/sources.h"
@@ -220,8 +221,8 @@ class Judge {
     }
     return claimed(
         Predicate::runs_away,
-        fmt::format("\"{}\" runs away: {} at the end, {:.3g} times the speed of its data{}", link(),
-                    m_.scene.speed_unit.text(speed()), std::abs(speed()) / m_.speed_scale,
+        fmt::format("\"{}\" runs away: {} at the end{}{}", link(), m_.scene.speed_unit.text(speed()),
+                    times_the_speed_of_its_data(m_, speed()),
                     by_loads ? ": " + driven_by_loads(contacts)
                     : too_few
                         ? ", and it goes on to gain, no less from each doubling of the time than from the one before"
@@ -412,6 +413,11 @@ Claims motion_claims(Equations& equations, const RunOutcome& outcome, const Resu
   if (jams && !judge.rests()) add(claims, std::move(jams));
   for (Claim& claim : contacts) claims.push_back(std::move(claim));
   return claims;
+}
+
+std::string times_the_speed_of_its_data(const Model& model, double speed) {
+  if (!states_speed(model)) return {};
+  return fmt::format(", {:.3g} times the speed of its data", std::abs(speed) / model.speed_scale);
 }
 
 }  // namespace kurbel

@@ -90,8 +90,9 @@ class RunWords {
   }
   // Nothing in the scene gives such a speed, and the cycles are too few to decide whether it goes on.
   std::string beyond(double speed) const {
-    const double times = r_.model ? std::abs(speed) / r_.model->speed_scale : 0;
-    return times > far_away ? fmt::format(", {:.3g} times the speed of its data", times) : "";
+    return r_.model && std::abs(speed) > far_away * r_.model->speed_scale
+               ? times_the_speed_of_its_data(*r_.model, speed)
+               : std::string();
   }
   // The link stops or reverses in every cycle: such a motion repeats but has no steady speed.
   bool stands_within_the_cycle() const {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "engine/model/stated_speed.h"
 #include "engine/numerics/index.h"
 #include "engine/return_map/periodicity.h"
 #include "engine/scene/keys.h"
@@ -106,7 +107,10 @@ double choose_speed(RigidMachine& machine, const ReduceOptions& options, Machine
     }
   }
   r.speed = m.speed_scale;
-  r.speed_source = machine.uses_speed() ? "rated speed" : "no torque depends on it";
+  r.speed_source = !machine.uses_speed()   ? "no torque depends on it"
+                   : states_rated_speed(m) ? "rated speed"
+                   : states_speed(m)       ? "the greatest speed of the scene"
+                                           : "after one turn from rest under the greatest torque";
   return 0;
 }
 
