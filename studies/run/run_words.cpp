@@ -170,7 +170,8 @@ std::string figures_in_words(const Result& r) {
                                                                       : "whose steadiness is not judged"));
   for (const Figure& f : r.figures)
     if (f.words() == "thermal_use" && f.value <= 1)  // a greater one is reported before
-      more(fmt::format("the thermal load of \"{}\" is {:.0f} % (RMS over rated torque{})", f.of, 100 * f.value,
+      more(fmt::format("the thermal load of \"{}\" {}is {:.0f} % (RMS over rated torque{})", f.of,
+                       r.model && r.model->commands.empty() ? "in its steady motion " : "", 100 * f.value,
                        r.model && !r.model->commands.empty() && f.at
                            ? fmt::format(", {} {:.4g} s",
                                          r.model->cycle > 0 || r.periods.time > 0
