@@ -61,8 +61,8 @@ int DcSeriesCircuit::next_mode(const ShaftState<double>& x, int which) const {
   if (which == 1)
     throw std::runtime_error(fmt::format(
         "the current of series motor \"{}\" passed {:g} times its stall current U/R and grows without bound: driven "
-        "backwards beyond −R/κ = {:.6g} rpm it excites itself. Give it a lighter load, or more resistance",
-        line.name, most_current, -line.base_speed() * 30 / std::numbers::pi));
+        "backwards beyond −R/κ = {} it excites itself. Give it a lighter load, or more resistance",
+        line.name, most_current, line.unit.text(-line.base_speed())));
   if (x.mode & ran_away) line.say_it_ran_away();
   return x.mode | ran_away;
 }

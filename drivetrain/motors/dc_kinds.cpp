@@ -303,6 +303,7 @@ void build_dc_series(const Section& s, const Reading<SeriesKeys>& m, Network& ne
   net.data.add(s.name, ArmatureCurrent{.by_mean = 1 / m.constant});
   DcSeriesMotor motor = m;
   motor.name = s.name;
+  if (const auto* unit = net.data.find<SpeedUnit>("")) motor.unit = *unit;
   if (!m.given(&SeriesKeys::max_speed))
     motor.limit_by = m.rated_speed ? "by default 5 rated_speed" : "by default 100 R/κ, as rated_speed is not given";
   if (!put_with_circuit<DcSeriesCircuit>(m.rheostat, m.circuit, s.name, m.window, motor, net, node))

@@ -13,12 +13,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
 #include "engine/elements/element.h"
 #include "engine/numerics/dual.h"
+#include "engine/scene/speed_unit.h"
 
 namespace kurbel {
 
@@ -30,6 +30,7 @@ struct DcSeriesMotor {
   double max_speed = 0;       // [rad/s], > 0
   std::string name = {};      // of the component, for messages
   std::string limit_by = {};  // origin of max_speed, if not the scene
+  SpeedUnit unit = {};        // of speeds in messages
 
   // R/κ: the speed at which the torque is a quarter of the stall torque [rad/s].
   double base_speed() const { return resistance / constant; }
@@ -66,20 +67,19 @@ struct DcSeriesMotor {
   }
   int first_mode(const ShaftState<double>&) const { return 0; }
   int next_mode(const ShaftState<double>& x, int which) const {
-    constexpr double rpm = 30 / std::numbers::pi;
     if (which == 1)
       throw std::runtime_error(
-          fmt::format("series motor \"{}\" is driven backwards at {:.6g} rpm, half the speed at which its current "
+          fmt::format("series motor \"{}\" is driven backwards at {}, half the speed at which its current "
                       "grows without bound (−R/κ); give it a lighter load, or more resistance",
-                      name, least_speed() * rpm));
+                      name, unit.text(least_speed())));
     if (x.mode != 0) say_it_ran_away();
     return 1;
   }
   [[noreturn]] void say_it_ran_away() const {
     throw std::runtime_error(fmt::format(
-        "series motor \"{}\" ran away: its speed passed max_speed = {:.6g} rpm{}. Nothing on its shaft held it below, "
+        "series motor \"{}\" ran away: its speed passed max_speed = {}{}. Nothing on its shaft held it below, "
         "and its own torque reaches zero at no speed; load it more, or raise max_speed if the machine can bear it",
-        name, max_speed * 30 / std::numbers::pi, limit_by.empty() ? "" : " (" + limit_by + ")"));
+        name, unit.text(max_speed), limit_by.empty() ? "" : " (" + limit_by + ")"));
   }
   std::string mode_name(int mode) const { return mode == 0 ? "" : "ran away: passed its max_speed"; }
 

@@ -46,6 +46,7 @@ void build_component(const Section& section, Network& network, Messages& message
 
 Network build_network(const Scene& scene) {
   Network network;
+  network.data.add("", scene.speed_unit);  // of the machine: for messages of its elements
   Messages messages(scene.file);
   for (const Section& section : scene.components) {
     network.components.push_back(section.name);
