@@ -87,7 +87,7 @@ Checkpoint checkpoint_from(const std::string& text, const Equations& equations) 
   Checkpoint c;
   try {
     const Json json = Json::parse(text);
-    if (json.at("kind") != kind) throw UnfitCheckpoint("is no checkpoint that this program can read");
+    if (json.at("kind") != kind) throw UnfitCheckpoint("is no state of this version; write it again with --save-state");
     const auto names = json.at("states").get<std::vector<std::string>>();
     const std::vector<std::string> own = names_of(equations);
     for (std::size_t i = 0; i < std::max(names.size(), own.size()); ++i)
@@ -104,8 +104,8 @@ Checkpoint checkpoint_from(const std::string& text, const Equations& equations) 
     if (c.state.y.size() != own.size()) throw UnfitCheckpoint("has not as many values as states");
     if (!c.integrals.empty() && equations.audit() && c.integrals.size() != equations.integral_count())
       throw UnfitCheckpoint("has other accounts of work than this scene");
-  } catch (const Json::exception& error) {
-    throw UnfitCheckpoint(fmt::format("cannot be read as a checkpoint ({})", error.what()));
+  } catch (const Json::exception&) {
+    throw UnfitCheckpoint("is no state of a run; give a file that --save-state wrote");
   }
   check(c, equations);
   return c;
