@@ -37,7 +37,15 @@ std::vector<std::size_t> others(std::size_t count, const std::vector<std::size_t
 void Constraints::System::set(const std::vector<ConstraintRow>& rows) {
   if (rows == rows_) return;
   rows_ = rows;
+  capacity_.clear();
+  for (const ConstraintRow& row : rows) capacity_.push_back(row.capacity);
   list_shafts();
+}
+
+void Constraints::System::share_by(const std::vector<double>& capacity) {
+  if (capacity == capacity_) return;
+  capacity_ = capacity;
+  if (!repeating_.empty() && !magnitude_.empty()) share();
 }
 
 void Constraints::System::list_shafts() {
@@ -216,17 +224,18 @@ void Constraints::System::respond_to_repeating() {
 // (C⁻¹ + Rᵀ C_b⁻¹ R) z = −Rᵀ C_b⁻¹ λ₀. Repeating rows are the weakest, so that this is well determined.
 void Constraints::System::share() {
   const auto r = ix(basic_.size()), q = ix(repeating_.size());
-  const auto root = [&](std::size_t row) { return std::sqrt(rows_[row].capacity); };
-  Matrix scaled = share_multiplier_;  // C_b^-½ R C^½
+  Matrix root(r, q), scaled = share_multiplier_;  // C_b^-½ C^½, C_b^-½ R C^½
   for (Eigen::Index b = 0; b < r; ++b)
-    for (Eigen::Index k = 0; k < q; ++k)
-      scaled(b, k) *= root(repeating_[static_cast<std::size_t>(k)]) / root(basic_[static_cast<std::size_t>(b)]);
+    for (Eigen::Index k = 0; k < q; ++k) {
+      const std::size_t row = repeating_[static_cast<std::size_t>(k)], basic = basic_[static_cast<std::size_t>(b)];
+      const bool counts = rows_[row].unlimited || !rows_[basic].unlimited;
+      root(b, k) = counts ? std::sqrt(capacity_[row] / capacity_[basic]) : 0;
+    }
+  scaled.array() *= root.array();
   Matrix inverse = Matrix::Identity(q, q) + scaled.transpose() * scaled;
   invert(inverse, none);
   shares_ = -inverse * scaled.transpose();
-  for (Eigen::Index b = 0; b < r; ++b)
-    for (Eigen::Index k = 0; k < q; ++k)
-      shares_(k, b) *= root(repeating_[static_cast<std::size_t>(k)]) / root(basic_[static_cast<std::size_t>(b)]);
+  shares_.array() *= root.transpose().array();
 }
 
 bool Constraints::System::is_lossy() const {

@@ -12,6 +12,7 @@ class Constraints::System {
   void set(const std::vector<ConstraintRow>& rows);
   bool empty() const { return rows_.empty(); }
   bool repeats() const { return !repeating_.empty(); }
+  void share_by(const std::vector<double>& capacity);
   void solve(std::span<const double> inertia, std::span<const double> torque, std::span<double> alpha,
              std::span<double> multiplier);
   const std::optional<Trouble>& trouble() const { return trouble_; }
@@ -43,6 +44,7 @@ class Constraints::System {
   std::vector<int> place_;                 // index of every shaft in its list
   Matrix motion_, torque_;                 // G over the tied, then the given shafts; −T over the tied ones; by rows
   std::vector<double> lossy_, strength_;   // per row: deviation of T from −Gᵀ; capacity as a torque on its shafts
+  std::vector<double> capacity_;           // per row, for the shares
 
   // Depending on the magnitudes of the inertias. Indices among the tied shafts:
   std::vector<int> magnitude_;                  // of each inertia, in steps of 2⁸

@@ -17,6 +17,7 @@ Constraints::~Constraints() = default;
 void Constraints::set(const std::vector<ConstraintRow>& rows) { system_->set(rows); }
 bool Constraints::empty() const { return system_->empty(); }
 bool Constraints::repeats() const { return system_->repeats(); }
+void Constraints::share_by(const std::vector<double>& capacity) { system_->share_by(capacity); }
 void Constraints::solve(std::span<const double> inertia, std::span<const double> torque, std::span<double> alpha,
                         std::span<double> multiplier) {
   system_->solve(inertia, torque, alpha, multiplier);

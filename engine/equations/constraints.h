@@ -30,6 +30,7 @@ struct ConstraintRow {
   std::vector<ShaftGain> motion;  // G: Σ gain ω = 0
   std::vector<ShaftGain> torque;  // T: torques on the shafts by λ = 1
   double capacity = 1;            // [N·m], > 0
+  bool unlimited = false;         // a relation: counts in no sum over capacities of contacts
   bool operator==(const ConstraintRow&) const = default;
 };
 
@@ -46,6 +47,8 @@ class Constraints {
   void set(const std::vector<ConstraintRow>& rows);
   bool empty() const;
   bool repeats() const;  // some rows are redundant, by the last solve
+  // Other capacities for the shares of redundant rows than those of the rows, until rows are set that differ.
+  void share_by(const std::vector<double>& capacity);
 
   // Accelerations of the free shafts from the torques on them, and the multipliers of the rows. Input: alpha of prescribed
   // shafts. Shafts in no row are included; shafts in rows may have no inertia if the rows define their motion.

@@ -71,7 +71,6 @@ Modes unset_modes(const Model& m, std::size_t contacts) {
   modes.loss_direction.assign(m.relations.size(), 1);
   modes.loss_sign.assign(m.relations.size(), 1);
   modes.regularised.assign(contacts, 0);
-  modes.carries.assign(contacts, 0);
   modes.capacity.assign(contacts, 0);
   modes.turns.assign(m.angles.size(), 0);
   modes.command.assign(m.commands.size(), {});

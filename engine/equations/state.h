@@ -33,8 +33,7 @@ struct Modes {
   std::vector<int> loss_direction;    // per relation: direction of sliding of a gear with losses
   std::vector<int> loss_sign;         // per relation: sign of the torque passed on, that is, the flanks in contact
   std::vector<char> regularised;      // per contact: its events chattered; its torque is a smooth function of its speed
-  std::vector<int> carries;           // per contact in redundant rows: sign of its last torque; 0: undetermined
-  std::vector<double> capacity;       // per contact: weight of its share in redundant rows [N·m]
+  std::vector<double> capacity;       // per contact in redundant rows: hold at the last event [N·m]
 
   // Angles in y start from first_two_turns · 4π; the removed turns are counted here.
   std::vector<double> turns;   // per tracked angle, in units of two turns

@@ -13,7 +13,10 @@
 namespace kurbel {
 namespace {
 
-constexpr double least_capacity = 1e-6;  // of the torque scale, for sharing
+constexpr double least_capacity = 1e-9;  // of the torque scale, for sharing
+constexpr double nothing = 1e-12;        // of the torque scale: no direction
+constexpr double no_change = 1e-15;      // of a capacity
+constexpr int most_rounds = 60;          // until the capacities are those of the torques that they share
 
 // Torque on the driven side, μ = λ − L, at the intersection of both lines of a direction: there the flanks change.
 double meeting(const GearLoss& loss, int direction) {
@@ -68,6 +71,7 @@ void Ties::write_relation_rows() {
     row.torque = relation.motion;
     for (ShaftGain& g : row.torque) g.gain = -g.gain;
     row.capacity = most_capacity * model_.torque_scale;
+    row.unlimited = true;
     if (relation.loss.empty() || modes_.loss_direction[r] == 0) continue;
     const GearLoss::Line& line = relation.in_motion.line(modes_.loss_direction[r], modes_.loss_sign[r]);
     for (const ShaftGain& g : relation.loss) row.torque.push_back({g.shaft, line.slope * g.gain});
@@ -88,7 +92,7 @@ void Ties::make_rows() {
     ConstraintRow& row = rows_[relations + k];
     row.motion = contact.motion;
     row.torque = contact.torque;
-    row.capacity = std::max(modes_.capacity[row_contact_[k]], least_capacity * contact.torque_scale);
+    row.capacity = weight(row_contact_[k], modes_.capacity[row_contact_[k]]);
     tied_ = tied_ || contact.kind != Contact::Kind::frame;
   }
   list_still_shafts(rows_);
@@ -125,6 +129,7 @@ double Ties::effective_inertia(const Contact& contact, std::span<const double> i
 // Stages of an evaluation
 
 void Ties::add_known(const Instant& now, double* torque) {
+  now_ = &now;
   for (const int r : lossy_) {
     const int direction = modes_.loss_direction[at(r)];
     if (direction == 0) continue;
@@ -153,12 +158,42 @@ void Ties::accelerate(double t, std::span<const double> torque, std::span<const 
   }
   for (std::size_t s = m.free_shafts; s < m.shafts.size(); ++s)
     all_alpha_[s] = prescribed_acceleration(m, modes_, s, t);
-  constraints_.solve(inertia, torque, all_alpha_, multiplier_);
+  solve(torque, inertia);
   for (std::size_t s = 0; s < m.free_shafts; ++s) alpha[s] = still_[s] ? 0 : all_alpha_[s];
-  std::copy(multiplier_.begin(), multiplier_.begin() + static_cast<std::ptrdiff_t>(m.relations.size()),
-            relation_torque_.begin());
-  for (std::size_t k = 0; k < row_contact_.size(); ++k)
-    contact_torque_[row_contact_[k]] = multiplier_[m.relations.size() + k];
+}
+
+// The hold of a gear by its losses grows with the torque that it passes on, the hold of a brake changes with its command:
+// where several contacts hold together, their shares follow their present holds. They begin from those of the modes, so
+// that they depend on the state alone.
+void Ties::solve(std::span<const double> torque, std::span<const double> inertia) {
+  const std::size_t relations = model_.relations.size();
+  capacity_.clear();
+  if (row_contact_.size() > 1)
+    for (const ConstraintRow& row : rows_) capacity_.push_back(row.capacity);
+  bool changed = true;
+  for (int round = 0; changed && round < most_rounds; ++round) {
+    if (!capacity_.empty()) constraints_.share_by(capacity_);
+    constraints_.solve(inertia, torque, all_alpha_, multiplier_);
+    std::copy_n(multiplier_.begin(), relations, relation_torque_.begin());
+    for (std::size_t k = 0; k < row_contact_.size(); ++k) contact_torque_[row_contact_[k]] = multiplier_[relations + k];
+    if (!shares()) return;
+    if (round == 0) find_holds(*now_);
+    changed = false;
+    for (std::size_t k = 0; k < row_contact_.size(); ++k) {
+      const std::size_t c = row_contact_[k];
+      const double part = contact_torque_[c] / contacts_[c].torque_scale;
+      const double own = weight(c, capacity(c, (part > nothing) - (part < -nothing)));
+      double& before = capacity_[relations + k];
+      changed = changed || std::abs(own - before) > no_change * own;
+      before = round < most_rounds / 4 ? own : 0.5 * (own + before);
+    }
+  }
+}
+
+// Torques count by the power that they take where the shafts turn: as if all were on one shaft.
+double Ties::weight(std::size_t contact, double capacity) const {
+  const Contact& c = contacts_[contact];
+  return std::max(capacity, least_capacity * c.torque_scale) * model_.speed_scale / c.speed_scale;
 }
 
 void Ties::publish(const Instant& now, Sums& sums) {
@@ -263,18 +298,23 @@ void Ties::find_holds(const Instant& now) {
 
 Hold Ties::limits(std::size_t contact) const {
   const Contact& c = contacts_[contact];
+  Hold hold;
   switch (c.kind) {
     case Contact::Kind::frame:
-      return {-shaft_hold_[at(c.index)].high, -shaft_hold_[at(c.index)].low};
-    case Contact::Kind::connection:
-      return slip_hold_[at(c.index)];
-    case Contact::Kind::loss:
+      hold = {-shaft_hold_[at(c.index)].high, -shaft_hold_[at(c.index)].low};
       break;
+    case Contact::Kind::connection:
+      hold = slip_hold_[at(c.index)];
+      break;
+    case Contact::Kind::loss:
+      const GearLoss& loss = model_.network.relations[at(model_.relations[at(c.index)].relation)].loss;
+      const double passed = relation_torque_[at(c.index)] - contact_torque_[contact];
+      hold = {std::min(loss_at(loss.line(-1, 1), passed), loss_at(loss.line(-1, -1), passed)),
+              std::max(loss_at(loss.line(1, 1), passed), loss_at(loss.line(1, -1), passed))};
   }
-  const GearLoss& loss = model_.network.relations[at(model_.relations[at(c.index)].relation)].loss;
-  const double passed = relation_torque_[at(c.index)] - contact_torque_[contact];
-  return {std::min(loss_at(loss.line(-1, 1), passed), loss_at(loss.line(-1, -1), passed)),
-          std::max(loss_at(loss.line(1, 1), passed), loss_at(loss.line(1, -1), passed))};
+  // One of several that holds nothing by itself keeps its place among them.
+  const double least = shares() && makes_a_row(contact) ? least_capacity * c.torque_scale : 0;
+  return {std::min(hold.low, -least), std::max(hold.high, least)};
 }
 
 double Ties::flank_margin(std::size_t relation) const {
@@ -285,12 +325,10 @@ double Ties::flank_margin(std::size_t relation) const {
   return sign * (passed - meeting(loss, direction)) / contacts_[contact_of_loss_[relation]].torque_scale;
 }
 
-double Ties::capacity(std::size_t contact) const {
-  const Contact& c = contacts_[contact];
+double Ties::capacity(std::size_t contact, int way) const {
   const Hold hold = limits(contact);
-  const int carries = modes_.carries[contact];
-  const double most = carries > 0 ? hold.high : carries < 0 ? -hold.low : std::min(hold.high, -hold.low);
-  return std::clamp(most, least_capacity * c.torque_scale, most_capacity * c.torque_scale);
+  const double most = way > 0 ? hold.high : way < 0 ? -hold.low : std::max(hold.high, -hold.low);
+  return std::min(most, most_capacity * contacts_[contact].torque_scale);
 }
 
 double Ties::regularised_torque(std::size_t contact, const Instant& now, double* slope) const {

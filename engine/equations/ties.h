@@ -62,8 +62,8 @@ class Ties {
   Hold limits(std::size_t contact) const;
   // Positive while the flank given by the mode is in contact; of order one.
   double flank_margin(std::size_t relation) const;
-  // Weight of its share in redundant rows: its limit in the direction of its torque [N·m].
-  double capacity(std::size_t contact) const;
+  // Weight of its share in redundant rows: its limit in this direction, 0: the larger one [N·m].
+  double capacity(std::size_t contact, int way) const;
   const std::vector<Hold>& shaft_hold() const { return shaft_hold_; }
   const std::vector<Hold>& element_hold() const { return element_hold_; }
 
@@ -89,6 +89,9 @@ class Ties {
  private:
   void list_still_shafts(const std::vector<ConstraintRow>& rows);
   void write_relation_rows();
+  void solve(std::span<const double> torque, std::span<const double> inertia);
+  bool shares() const { return row_contact_.size() > 1 && repeats(); }
+  double weight(std::size_t contact, double capacity) const;
   double regularised_torque(std::size_t contact, const Instant& now, double* slope = nullptr) const;
   void publish_contact(std::size_t contact, const Instant& now, Sums& sums) const;
   void publish_relation(std::size_t relation, const Instant& now, Sums& sums);
@@ -109,9 +112,10 @@ class Ties {
   std::vector<char> still_;               // per shaft
   bool tied_ = false;                     // more ties than single shafts at standstill
   bool smooth_ = false;                   // some contact is regularised
+  const Instant* now_ = nullptr;          // of this evaluation
 
   // of the last evaluated state
-  std::vector<double> contact_torque_, relation_torque_, relation_loss_, multiplier_, all_alpha_;
+  std::vector<double> contact_torque_, relation_torque_, relation_loss_, multiplier_, all_alpha_, capacity_;
   std::vector<Hold> shaft_hold_, element_hold_, slip_hold_;
 };
 

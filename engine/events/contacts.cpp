@@ -105,7 +105,7 @@ std::string Contacts::regularise(std::size_t guard) {
 // Of stuck contacts, by the holds at the last evaluated state.
 void Contacts::find_capacities() {
   const Ties& ties = flow_.ties();
-  for (std::size_t c = 0; c < list().size(); ++c) modes().capacity[c] = ties.makes_a_row(c) ? ties.capacity(c) : 0;
+  for (std::size_t c = 0; c < list().size(); ++c) modes().capacity[c] = ties.makes_a_row(c) ? ties.capacity(c, 0) : 0;
 }
 
 void Contacts::tie(double t, std::span<const double> y) {
@@ -113,20 +113,6 @@ void Contacts::tie(double t, std::span<const double> y) {
   flow_.ties().find_holds(flow_.now());
   find_capacities();
   flow_.ties().make_rows();
-}
-
-// A one-way clutch holds only its drag in one direction, any torque in the other. True: some torque changed its direction.
-bool Contacts::follow_what_is_carried() {
-  const Ties& ties = flow_.ties();
-  if (!ties.repeats()) return false;
-  bool changed = false;
-  for (const std::size_t c : ties.contacts_in_rows()) {
-    const double carried = ties.torque(c);
-    if (std::abs(carried) <= nothing * list()[c].torque_scale) continue;
-    modes().carries[c] = carried > 0 ? 1 : -1;
-    changed = changed || ties.capacity(c) != modes().capacity[c];
-  }
-  return changed;
 }
 
 // Makes the speeds of stuck contacts exactly equal, with the least change of kinetic energy.
@@ -148,12 +134,6 @@ bool Contacts::evaluate_sharing(double t, std::span<const double> y, const std::
                                 Misfit& jammed) {
   try {
     flow_.evaluate(t, y);
-    flow_.ties().find_holds(flow_.now());
-    if (follow_what_is_carried()) {
-      find_capacities();
-      flow_.ties().make_rows();
-      flow_.evaluate(t, y);
-    }
   } catch (const Jam& jam) {  // contacts at rest do not jam
     for (const std::size_t c : among)
       if (list()[c].kind == Contact::Kind::frame && list()[c].index == jam.shaft && sense(c) != 0) {

@@ -68,7 +68,6 @@ class Contacts {
     return sum_over(list()[contact].motion, now.speed);
   }
   void find_capacities();
-  bool follow_what_is_carried();
   void slip_as_given(double t, std::span<const double> y);
   void tie_speeds(double t, std::span<double> y);
   bool evaluate_sharing(double t, std::span<const double> y, const std::vector<std::size_t>& among, Misfit& jammed);

@@ -145,7 +145,6 @@ std::vector<std::size_t> Start::senses_of_slip(double t, std::span<const double>
     int& sense = sense_of(contacts[c], modes);
     sense = std::abs(v) <= at_rest * contacts[c].speed_scale ? 0 : v > 0 ? 1 : -1;
     modes.regularised[c] = false;
-    modes.carries[c] = 0;
     if (sense == 0 && !is_prescribed(contacts[c], model_)) still.push_back(c);
   }
   return still;
