@@ -13,10 +13,9 @@
 namespace kurbel {
 namespace {
 
-constexpr double least_capacity = 1e-9;  // of the torque scale, for sharing
-constexpr double nothing = 1e-12;        // of the torque scale: no direction
-constexpr double no_change = 1e-15;      // of a capacity
-constexpr int most_rounds = 60;          // until the capacities are those of the torques that they share
+constexpr double nothing = 1e-12;    // of the torque scale: no direction
+constexpr double no_change = 1e-15;  // of a capacity
+constexpr int most_rounds = 60;      // until the capacities are those of the torques that they share
 
 // Torque on the driven side, μ = λ − L, at the intersection of both lines of a direction: there the flanks change.
 double meeting(const GearLoss& loss, int direction) {

@@ -37,6 +37,7 @@ class Ties {
   const std::vector<ConstraintRow>& rows() const { return rows_; }
   // Some rows are redundant, by the last solution: they share by capacity.
   bool repeats() const { return tied_ && constraints_.repeats(); }
+  bool shares() const { return row_contact_.size() > 1 && repeats(); }  // some of these may be contacts
   bool stands(std::size_t shaft) const { return still_[shaft]; }        // tied to the frame
   bool is_coupled(std::size_t shaft) const { return coupled_[shaft]; }  // its row of the Jacobian mixes with others
   // Makes tied speeds exactly consistent, with the least change of kinetic energy.
@@ -85,12 +86,12 @@ class Ties {
 
   static constexpr double creep = 1e-4;         // v₀ of regularised contacts, over the speed scale: ¾ of the torque
   static constexpr double most_capacity = 1e3;  // of the torque scale: counts as unlimited
+  static constexpr double least_capacity = 1e-9;  // of the torque scale, where several share
 
  private:
   void list_still_shafts(const std::vector<ConstraintRow>& rows);
   void write_relation_rows();
   void solve(std::span<const double> torque, std::span<const double> inertia);
-  bool shares() const { return row_contact_.size() > 1 && repeats(); }
   double weight(std::size_t contact, double capacity) const;
   double regularised_torque(std::size_t contact, const Instant& now, double* slope = nullptr) const;
   void publish_contact(std::size_t contact, const Instant& now, Sums& sums) const;

@@ -9,6 +9,12 @@
 #include "engine/numerics/index.h"
 
 namespace kurbel {
+namespace {
+
+constexpr double insignificant = 1e-9;  // of a further torque
+constexpr int halvings = 60;
+
+}  // namespace
 
 // Shares of the capacity if several elements hold a shaft.
 Shares Contacts::sharing(const Contact& contact) const {
@@ -58,6 +64,40 @@ std::string Contacts::holders(const Contact& contact) const {
   return text.empty() ? contact.name : text;
 }
 
+// Whether all that hold together with this contact still hold with a further torque on it. The torques of ties are then
+// those with it.
+bool Contacts::all_hold(std::size_t c, double torque, double t) {
+  const Ties& ties = flow_.ties();
+  const std::vector<double> before = ties.torques().contact;
+  std::vector<double> alpha = flow_.accelerations();
+  push(c, torque, t, alpha);
+  for (const std::size_t other : ties.contacts_in_rows()) {
+    const double now = ties.torque(other);
+    if (std::abs(now - before[other]) <= insignificant * std::abs(torque)) continue;  // elsewhere
+    const Hold hold = ties.limits(other);
+    if (now > hold.high || now < hold.low) return false;
+  }
+  return true;
+}
+
+// The further torque in this direction with which the first of them gives way; they share anew with every torque.
+double Contacts::missing(std::size_t c, int way, double t) {
+  const Ties::Torques known = flow_.ties().torques();
+  const double scale = list()[c].torque_scale;
+  const auto hold = [&](double torque) {
+    flow_.ties().set_torques(known);
+    return all_hold(c, way * torque, t);
+  };
+  double low = 0, high = scale;
+  while (high <= 2 * Ties::most_capacity * scale && hold(high)) low = high, high *= 2;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (hold(middle) ? low : high) = middle;
+  }
+  flow_.ties().set_torques(known);
+  return high;
+}
+
 std::vector<std::string> Contacts::held(double t, std::span<const double> y) {
   std::vector<std::string> words;
   bool any = false;
@@ -73,11 +113,16 @@ std::vector<std::string> Contacts::held(double t, std::span<const double> y) {
   for (std::size_t c = 0; c < list().size(); ++c) {
     const Contact& contact = list()[c];
     if (!is_open(c) || contact.kind == Contact::Kind::connection) continue;
+    const double acts = flow_.ties().torque(c);
     const Hold hold = flow_.ties().limits(c);
+    const bool shared = flow_.ties().shares();
+    if (shared && std::max(hold.high, -hold.low) <= 2 * Ties::least_capacity * contact.torque_scale) continue;
     words.push_back(words_of(contact, holders(contact),
-                             {.acts = flow_.ties().torque(c),
+                             {.acts = acts,
                               .backwards = hold.low,
                               .forwards = hold.high,
+                              .missing_backwards = shared ? missing(c, -1, t) : acts - hold.low,
+                              .missing_forwards = shared ? missing(c, 1, t) : hold.high - acts,
                               .unbounded = Ties::most_capacity * contact.torque_scale}));
   }
   return words;

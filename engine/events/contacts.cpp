@@ -188,6 +188,13 @@ void Contacts::consider_contact(Misfit& worst, std::size_t c, double t) {
   if (!ties.lossy().empty() && std::abs(push) <= round_off && !gives_way(c, now, t)) consider(worst, 1, c, 0);
 }
 
+// Accelerations, and the torques of all ties, with a further torque along the slip.
+void Contacts::push(std::size_t c, double torque, double t, std::vector<double>& alpha) {
+  std::vector<double> pushed = flow_.free_torque();
+  add_over(list()[c].motion, torque, pushed.data());
+  flow_.ties().accelerate(t, pushed, flow_.inertia(), alpha.data());
+}
+
 // Whether a torque in this direction accelerates the slip. In a self-locking gear that turns back with its load, a larger
 // torque increases the hold: a contact that releases at its limit does not slip this way. A contact held by another one
 // has no response and releases nevertheless.
@@ -195,9 +202,8 @@ bool Contacts::gives_way(std::size_t c, int way, double t) {
   const Contact& contact = list()[c];
   const Ties::Torques known = flow_.ties().torques();
   const std::vector<double>& alpha = flow_.accelerations();
-  std::vector<double> torque = flow_.free_torque(), pushed = alpha;
-  add_over(contact.motion, way * contact.torque_scale, torque.data());
-  flow_.ties().accelerate(t, torque, flow_.inertia(), pushed.data());
+  std::vector<double> pushed = alpha;
+  push(c, way * contact.torque_scale, t, pushed);
   flow_.ties().set_torques(known);
   double answer = 0, size = 0;
   for (const ShaftGain& g : contact.motion) {

@@ -74,6 +74,7 @@ class Contacts {
   Misfit worst_misfit(double t, std::span<const double> y, const std::vector<std::size_t>& among);
   void consider(Misfit& worst, double size, std::size_t which, int better) const;
   void consider_contact(Misfit& worst, std::size_t contact, double t);
+  void push(std::size_t contact, double torque, double t, std::vector<double>& alpha);
   bool gives_way(std::size_t contact, int way, double t);
   bool change_worst(double t, std::span<const double> y, const std::vector<std::size_t>& among, int& changes);
   bool try_all(double t, std::span<const double> y, const std::vector<std::size_t>& among,
@@ -86,6 +87,8 @@ class Contacts {
   void report(double t, const std::vector<std::size_t>& among, const std::vector<int>& before,
               const std::vector<std::size_t>& always, EventLog& log) const;
   Shares sharing(const Contact& contact) const;
+  bool all_hold(std::size_t contact, double torque, double t);
+  double missing(std::size_t contact, int way, double t);
   std::string holders(const Contact& contact) const;
 
   Flow& flow_;

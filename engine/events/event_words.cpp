@@ -132,18 +132,20 @@ std::string words_of(const Contact& contact, const std::string& holders, const H
   constexpr double rounding = 1e-8;  // of what is held, or usual: nothing acts
   const double least = rounding * std::max({std::abs(holding.backwards), holding.forwards, contact.torque_scale});
   const double acts = std::abs(holding.acts) <= least ? 0 : holding.acts;
-  const auto side = [&](double limit, const char* way) {
-    return std::abs(limit) > holding.unbounded ? fmt::format("{}: it is self-locking", way)
-           : std::abs(limit - acts) <= least
+  const auto side = [&](double limit, double missing, const char* way) {
+    return std::max(std::abs(limit), missing) > holding.unbounded ? fmt::format("{}: it is self-locking", way)
+           : missing <= least
                ? fmt::format("{}: any torque would move it", way)
-               : fmt::format("{}: up to {} N·m are held, {} N·m more would move it", way, without_exponent(limit),
-                             without_exponent(std::abs(limit - acts)));
+               : fmt::format("{}: up to {} N·m are held, {} N·m more would move it{}", way, without_exponent(limit),
+                             without_exponent(missing),
+                             std::abs(std::abs(limit - acts) - missing) <= least ? "" : ", for others hold with it");
   };
   const std::string held = fmt::format("\"{}\" is held at the end by {}: ", contact.name, holders);
   if (acts == 0 && holding.forwards <= least && holding.backwards >= -least)
     return held + "no torque acts, and any torque would move it";
   return fmt::format("{}the acting torque is {} N·m; {}; {}", held, without_exponent(acts),
-                     side(holding.forwards, "forwards"), side(holding.backwards, "backwards"));
+                     side(holding.forwards, holding.missing_forwards, "forwards"),
+                     side(holding.backwards, holding.missing_backwards, "backwards"));
 }
 
 }  // namespace kurbel

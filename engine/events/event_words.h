@@ -31,9 +31,10 @@ Event modes_event(double t, std::size_t contacts, bool fits, int changes);
 // Chattering: so many events within a short time [s] that their owners get a law without events.
 Event restless_event(double t, const std::string& owners, std::size_t events, double within);
 
-// A holding contact: the acting torque, and the limits at which it breaks away [N·m]; above `unbounded`: no limit.
+// A holding contact: the acting torque, the limits at which it breaks away, and what is missing to them, with all that
+// hold together with it [N·m]; above `unbounded`: no limit.
 struct Holding {
-  double acts = 0, backwards = 0, forwards = 0;
+  double acts = 0, backwards = 0, forwards = 0, missing_backwards = 0, missing_forwards = 0;
   double unbounded = 0;
 };
 std::string words_of(const Contact& contact, const std::string& holders, const Holding& holding);
