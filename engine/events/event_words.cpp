@@ -136,8 +136,8 @@ std::string words_of(const Contact& contact, const std::string& holders, const H
     return std::max(std::abs(limit), missing) > holding.unbounded ? fmt::format("{}: it is self-locking", way)
            : missing <= least
                ? fmt::format("{}: any torque would move it", way)
-               : fmt::format("{}: up to {} N·m are held, {} N·m more would move it{}", way, without_exponent(limit),
-                             without_exponent(missing),
+               : fmt::format("{}: up to {} N·m are held, {} N·m more would move it{}", way,
+                             without_exponent(std::abs(limit) <= least ? 0 : limit), without_exponent(missing),
                              std::abs(std::abs(limit - acts) - missing) <= least ? "" : ", for others hold with it");
   };
   const std::string held = fmt::format("\"{}\" is held at the end by {}: ", contact.name, holders);

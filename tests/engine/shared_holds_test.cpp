@@ -14,8 +14,8 @@ namespace {
 
 struct Machine {
   double brake = 20, ratio = 30, efficiency = 0.8;
-  std::string load, drive;   // torques on the drum and on the motor, over time
-  std::string effects = "";  // those that are on beside the losses
+  std::string load = {}, drive = {};  // torques on the drum and on the motor, over time
+  std::string effects = "";           // those that are on beside the losses
   std::string coupling = "2 kN*m/rad";
 };
 
@@ -55,7 +55,7 @@ std::vector<double> releases(const Result& r, const std::string& component, cons
 void expect_release(const Result& r, double t, bool forwards) {
   ASSERT_TRUE(r.complete) << r.diagnosis;
   const std::string what = forwards ? "moves forwards" : "moves backwards";
-  for (const std::string& component : {"motor", "gearbox"}) {
+  for (const char* component : {"motor", "gearbox"}) {
     const std::vector<double> times = releases(r, component, what);
     ASSERT_EQ(times.size(), 1u) << component;
     EXPECT_NEAR(times[0], t, 1e-9 * t) << component;
@@ -76,7 +76,7 @@ TEST(SharedHolds, ALoadThatGrowsIsHeldAsOneThatActsFromTheStart) {
 }
 
 // Random hoists whose load, or what drives them, changes slowly: backwards where brake and losses are used up,
-// i (H + M) = η W, forwards at M = H + W/(i η). With a spring before the gear they hold just below that, and not above.
+// i (H + M) = η W, forwards at M = H + W/(i η). With a spring before the gear a load that grows is held just below that, and not above.
 TEST(SharedHolds, RandomHoistsLetGoAtTheSumOfWhatHolds) {
   std::mt19937 random(20261129);
   const auto some = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
@@ -98,30 +98,30 @@ TEST(SharedHolds, RandomHoistsLetGoAtTheSumOfWhatHolds) {
     const double sign = kind == 0 ? -side : side;
     *changing = over_time(0, sign * changes * 10 / t), *kept = over_time(side * keeps, side * keeps);
     expect_release(test::run(text_of(m), false), t, (kind == 2) == (side > 0));
-    // At the end of the run 1 % below and above, with the spring.
+    // With a load that grows until 1 % below and above, and a spring.
+    if (kind != 0) continue;
     for (const double level : {0.99, 1.01}) {
       Machine elastic = m;
       elastic.effects = ", elasticity = true";
-      (kind == 0 ? elastic.load : elastic.drive) = over_time(0, sign * changes * level);
+      elastic.load = over_time(0, sign * changes * level);
       const Result r = test::run(text_of(elastic), false);
-      EXPECT_EQ(releases(r, "motor", (kind == 2) == (side > 0) ? "moves forwards" : "moves backwards").empty(),
-                level < 1);
+      EXPECT_EQ(releases(r, "motor", side < 0 ? "moves forwards" : "moves backwards").empty(), level < 1);
     }
   }
 }
 
-// A screw jack under a load that grows: k F η₂ = 10 N·m with k = P/2π, η₂ = tan(α − ρ)/tan α.
+// A screw jack under a load that grows: k F η₂ = 10 N·m with k = P/2π, η₂ = tan(α − ρ)/tan α with ρ of a trapezoidal thread.
 TEST(SharedHolds, AScrewJackLetsGoWhereItsBrakeDoes) {
   const Result r = test::run(R"(
     line = ["motor", "jack"]
     motor = { kind = "inertia", inertia = "0.01 kg*m2" }
     brake = { kind = "brake", on = "motor", torque = "2 N*m", static_torque = "10 N*m" }
-    jack = { kind = "screw", lead = "20 mm", mean_diameter = "40 mm", friction_coefficient = 0.08, mass = "100 kg",
-             inclination = "90 deg", table = { over = "time", unit = ["s", "N"], points = [[0, 0], [10, 10000]] } }
+    jack = { kind = "screw", lead = "20 mm", mean_diameter = "40 mm", friction_coefficient = 0.08, mass = "100 kg", inclination = "90 deg", table = { over = "time", unit = ["s", "N"], points = [[0, 0], [10, 10000]] } }
     run = { start = "rest", until = "7 s" }
   )",
                              false);
-  const double lead = std::atan(0.02 / (std::numbers::pi * 0.04)), friction = std::atan(0.08);
+  const double lead = std::atan(0.02 / (std::numbers::pi * 0.04)),
+               friction = std::atan(0.08 / std::cos(std::numbers::pi / 12));
   const double force = 10 * 2 * std::numbers::pi / 0.02 * std::tan(lead) / std::tan(lead - friction);
   const std::vector<double> motor = releases(r, "motor", "moves backwards");
   ASSERT_EQ(motor.size(), 1u);
@@ -135,8 +135,7 @@ TEST(SharedHolds, ABrakeBesideASelfLockingWormHoldsAnyLoad) {
     motor = { kind = "inertia", inertia = "0.01 kg*m2" }
     brake = { kind = "brake", on = "motor", torque = "1 N*m", static_torque = "1.5 N*m" }
     worm = { kind = "worm gear", starts = 1, teeth = 40, lead_angle = "4.6 deg", friction_coefficient = 0.12 }
-    drum = { kind = "torque source", inertia = "3 kg*m2",
-             table = { over = "time", unit = ["s", "N*m"], points = [[0, 0], [10, -600], [20, 600]] } }
+    drum = { kind = "torque source", inertia = "3 kg*m2", table = { over = "time", unit = ["s", "N*m"], points = [[0, 0], [10, -600], [20, 600]] } }
     run = { start = "rest", until = "20 s" }
   )",
                              false);
