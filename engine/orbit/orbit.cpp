@@ -8,7 +8,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "engine/model/stated_speed.h"
 #include "engine/numerics/deadline.h"
 #include "engine/numerics/index.h"
 #include "engine/orbit/link_speeds.h"
@@ -170,13 +169,7 @@ class Search {
     for (const std::string& words : equations_.held(state_.t, state_.y)) text += "; " + words;
     return text;
   }
-  void run_away(double speed) {
-    const std::string fast = states_rated_speed(m_)
-                                 ? fmt::format("a shaft turns at {:.3g} times its rated speed", speed)
-                                 : fmt::format("\"{}\" turns at {}", link(), m_.scene.speed_unit.text(link_speed(), 4));
-    end(Orbit::Kind::runaway,
-        fmt::format("it runs away: at {:.4g} s {}, and nothing ends the acceleration", state_.t, fast));
-  }
+  void run_away(double speed) { end(Orbit::Kind::runaway, runaway_in_words(state_.t, speed, link_speed(), m_)); }
 
   // A period without switching: its change, and whether it is small enough.
   void look(const State& before, const Pace& now) {

@@ -87,4 +87,11 @@ std::string rest_in_words(const LastMotion& motion, const EventLog& events, cons
   return fmt::format("the machine slows down to rest: \"{}\" is below {} from {:.4g} s on", link, slow, thousandth);
 }
 
+std::string runaway_in_words(double t, double times, double link_speed, const Model& m) {
+  const std::string fast = states_rated_speed(m) ? fmt::format("a shaft turns at {:.3g} times its rated speed", times)
+                                                 : fmt::format("\"{}\" turns at {}", m.node_label(m.reduction_node),
+                                                               m.scene.speed_unit.text(link_speed, 4));
+  return fmt::format("it runs away: at {:.4g} s {}, and nothing ends the acceleration", t, fast);
+}
+
 }  // namespace kurbel

@@ -42,4 +42,8 @@ bool grows(const std::vector<double>& speeds);
 // The machine comes to rest by an event, or approaches the rest; as in the periods of a run.
 std::string rest_in_words(const LastMotion& motion, const EventLog& events, const Model& m);
 
+// "it runs away: at 2 s a shaft turns at 31 times its rated speed, …"; `times` the scale of speeds. Where no element states a
+// speed: that of the link [rad/s].
+std::string runaway_in_words(double t, double times, double link_speed, const Model& m);
+
 }  // namespace kurbel

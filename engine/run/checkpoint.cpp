@@ -11,8 +11,8 @@ namespace kurbel {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Command, value, rate, from, until, to, law, piece)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Modes, piece, prescribed_piece, active, on_since, direction, slip, loss_direction,
-                                   loss_sign, regularised, capacity, turns, first_two_turns, command,
-                                   next_step, armed_time, armed_angle, last_step_time, cycle_began)
+                                   loss_sign, regularised, capacity, turns, first_two_turns, command, next_step,
+                                   armed_time, armed_angle, last_step_time, cycle_began)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoopMemory::Recent, time, fired)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoopMemory, implicit, last_event, last_jam, events_here, jams_here, shortened,
                                    last_step, recent, held_needed, held, explicit_step, implicit_steps, implicit_since,
@@ -42,8 +42,8 @@ void check(const Checkpoint& c, const Equations& equations) {
                     alike(m.active, own.active) && alike(m.on_since, own.on_since) &&
                     alike(m.direction, own.direction) && alike(m.slip, own.slip) &&
                     alike(m.loss_direction, own.loss_direction) && alike(m.loss_sign, own.loss_sign) &&
-                    alike(m.regularised, own.regularised) &&
-                    alike(m.capacity, own.capacity) && alike(m.turns, own.turns) && alike(m.command, own.command);
+                    alike(m.regularised, own.regularised) && alike(m.capacity, own.capacity) &&
+                    alike(m.turns, own.turns) && alike(m.command, own.command);
   if (!fits) throw UnfitCheckpoint("is of a machine with other elements, contacts or commands than this scene's");
   const bool valid = std::isfinite(c.state.t) && all_finite(c.state.y) && all_finite(c.integrals) &&
                      all_finite(m.capacity) && all_finite(m.on_since) && all_finite(m.turns) &&

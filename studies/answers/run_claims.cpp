@@ -39,7 +39,8 @@ class RunWords {
                      fmt::format("\"{}\" goes through its operating sequence{}{}", link(),
                                  end.empty() ? "" : " and ends " + end, held()),
                      link(), at_end);
-    if ((p_.remaining || p_.without_limit || p_.unsettled) && (p_.run_down_begin || (swing().empty() && held().empty())))
+    if ((p_.remaining || p_.without_limit || p_.unsettled) &&
+        (p_.run_down_begin || (swing().empty() && held().empty())))
       return claimed(
           Predicate::not_steady_yet,
           fmt::format(

@@ -16,8 +16,8 @@ std::string load_case_at(const Result& result, std::optional<double> at);
 // Empty: the joint is not recorded.
 std::optional<double> largest_sample_from(const Result& result, const Figure& peak, double from);
 
-// That of the largest torque of a joint. A peak within the steady motion that does not come again, to within 1 %, in the
-// second half of the run is of what the start has left: load_case::run. Of runs with fewer than 100 samples of a cycle the
+// That of the largest torque of a joint. A peak within the steady motion that is not reached again, to within 1 %, in
+// the second half of the run is of what the start has left: load_case::run. Of runs with fewer than 100 samples of a cycle the
 // moment alone decides.
 std::string load_case_of_peak(const Result& result, const Figure& peak_torque);
 

@@ -66,7 +66,7 @@ class Rater {
     const Figure* peak = largest_torque();
     return peak && peak->at == at ? load_case_of_peak(result_, *peak) : load_case_at(result_, at);
   }
-  // Whether the factors of steady motion count: at this moment, even if the value does not come again.
+  // Whether the factors of steady motion count: at this moment, even if the value is not reached again.
   bool is_steady(std::optional<double> at) const {
     return (only_case_.empty() ? load_case_at(result_, at) : only_case_) == load_case::steady;
   }

@@ -90,7 +90,7 @@ TEST(SharedHolds, RandomHoistsLetGoAtTheSumOfWhatHolds) {
     double changes = 0, keeps = 0;
     if (kind == 0) {  // the load grows
       load = m.brake * m.ratio / m.efficiency, changes = load, keeps = 0;
-    } else {  // a load that hangs, and a drive that grows downwards or upwards
+    } else {  // a weight, and a drive that grows downwards or upwards
       load = part * m.brake * m.ratio / m.efficiency;
       drive = kind == 1 ? m.efficiency * load / m.ratio - m.brake : m.brake + load / (m.ratio * m.efficiency);
       changing = &m.drive, kept = &m.load, changes = drive, keeps = -load;
