@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "studies/answers/higher_speeds.h"
+#include "studies/answers/motion_claims.h"
 #include "studies/answers/run_claims.h"
 #include "studies/findings/trace.h"
 #include "tests/support/scenes.h"
