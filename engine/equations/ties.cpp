@@ -15,6 +15,7 @@ namespace {
 
 constexpr double nothing = 1e-12;    // of the torque scale: no direction
 constexpr double no_change = 1e-15;  // of a capacity
+constexpr double gives_way = 1e-6;   // of the torque scale: the share of what holds nothing, such as an open clutch
 constexpr int most_rounds = 60;      // until the capacities are those of the torques that they share
 
 // Torque on the driven side, μ = λ − L, at the intersection of both lines of a direction: there the flanks change.
@@ -192,7 +193,8 @@ void Ties::solve(std::span<const double> torque, std::span<const double> inertia
 // Torques count by the power that they take where the shafts turn: as if all were on one shaft.
 double Ties::weight(std::size_t contact, double capacity) const {
   const Contact& c = contacts_[contact];
-  return std::max(capacity, least_capacity * c.torque_scale) * model_.speed_scale / c.speed_scale;
+  const double least = capacity > 0 || c.kind == Contact::Kind::loss ? least_capacity : gives_way;
+  return std::max(capacity, least * c.torque_scale) * model_.speed_scale / c.speed_scale;
 }
 
 void Ties::publish(const Instant& now, Sums& sums) {
@@ -311,8 +313,9 @@ Hold Ties::limits(std::size_t contact) const {
       hold = {std::min(loss_at(loss.line(-1, 1), passed), loss_at(loss.line(-1, -1), passed)),
               std::max(loss_at(loss.line(1, 1), passed), loss_at(loss.line(1, -1), passed))};
   }
-  // One of several that holds nothing by itself keeps its place among them.
-  const double least = shares() && makes_a_row(contact) ? least_capacity * c.torque_scale : 0;
+  // A gear's losses that hold nothing yet keep their place among those that hold together.
+  const bool among_others = c.kind == Contact::Kind::loss && shares() && makes_a_row(contact);
+  const double least = among_others ? least_capacity * c.torque_scale : 0;
   return {std::min(hold.low, -least), std::max(hold.high, least)};
 }
 

@@ -86,7 +86,7 @@ class Ties {
 
   static constexpr double creep = 1e-4;         // v₀ of regularised contacts, over the speed scale: ¾ of the torque
   static constexpr double most_capacity = 1e3;  // of the torque scale: counts as unlimited
-  static constexpr double least_capacity = 1e-9;  // of the torque scale, where several share
+  static constexpr double least_capacity = 1e-12;  // of the torque scale, where several share
 
  private:
   void list_still_shafts(const std::vector<ConstraintRow>& rows);
