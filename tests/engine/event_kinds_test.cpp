@@ -101,7 +101,12 @@ TEST(WordsOfWhatIsHeld, ReportWhatActsWithoutExponents) {
   gear.kind = Contact::Kind::loss, gear.torque_scale = 100, gear.name = "gear";
   const auto words = [&](double acts, double backwards, double forwards) {
     return words_of(gear, "gear",
-                    {.acts = acts, .backwards = backwards, .forwards = forwards, .unbounded = 1e3 * gear.torque_scale});
+                    {.acts = acts,
+                     .backwards = backwards,
+                     .forwards = forwards,
+                     .missing_backwards = acts - backwards,
+                     .missing_forwards = forwards - acts,
+                     .unbounded = 1e3 * gear.torque_scale});
   };
   EXPECT_EQ(words(-1.022e-10, 0, 0),
             "\"gear\" is held at the end by gear: no torque acts, and any torque would move it");

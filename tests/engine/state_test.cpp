@@ -278,7 +278,7 @@ TEST(State, AnotherMachinesStateIsRefusedWithWhatDiffers) {
       checkpoint_from(broken, a);
       ADD_FAILURE() << broken;
     } catch (const UnfitCheckpoint& unfit) {
-      EXPECT_TRUE(std::string(unfit.what()).ends_with("--save-state")) << unfit.what();
+      EXPECT_NE(std::string(unfit.what()).find("--save-state"), std::string::npos) << unfit.what();
     }
   std::string wrong = text;
   wrong.replace(wrong.find("\"direction\": [") + 14, 0, "\n 7,");
