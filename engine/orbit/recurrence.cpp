@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/model/stated_speed.h"
+#include "engine/orbit/stated_speed.h"
 #include "engine/return_map/periodicity.h"
 #include "engine/run/speed_history.h"
 

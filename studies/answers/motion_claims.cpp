@@ -10,8 +10,8 @@
 
 #include "drivetrain/induction/induction_law.h"
 #include "engine/model/model.h"
-#include "engine/model/stated_speed.h"
 #include "engine/numerics/index.h"
+#include "engine/orbit/stated_speed.h"
 #include "engine/return_map/periodicity.h"
 #include "engine/run/sources.h"
 #include "mechanisms/reduced/mechanism.h"

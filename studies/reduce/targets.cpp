@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "engine/model/stated_speed.h"
 #include "engine/numerics/index.h"
+#include "engine/orbit/stated_speed.h"
 #include "engine/return_map/periodicity.h"
 #include "engine/scene/keys.h"
 

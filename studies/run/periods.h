@@ -9,7 +9,7 @@
 //               start of a drive.
 // mid speeds    ω_k = ½ (ω_max + ω_min) of each whole cycle of the section, converted to equal time steps. For machines
 //               without a cycle: of each period of the laws over time; if there is none, the speed without its vibration
-//               (limit_of_speed, approach.h), of less than 64 intervals mean speeds of sixteen equal parts.
+//               (limit_of_speed, duty/approach.h), of less than 64 intervals mean speeds of sixteen equal parts.
 // steady        the distance of the mid speeds to their limit is at most 0.1 % of the last one. The limit follows from the
 //               decrease of the changes (approach_of): geometric, δ_k+1 = q δ_k, with a remaining sum of q/(1 − q) of
 //               the last one. Changes that do not decrease have no limit, however small they are: a runaway, a drift.
@@ -32,8 +32,8 @@
 #include <cmath>
 
 #include "engine/run/speed_history.h"
+#include "studies/duty/approach.h"
 #include "studies/findings/result.h"
-#include "studies/run/approach.h"
 #include "studies/run/switchings.h"
 
 namespace kurbel {

@@ -1,5 +1,5 @@
 // approach.cpp — geometric sequences, and ranges of alternating ones.
-#include "studies/run/approach.h"
+#include "studies/duty/approach.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +20,7 @@ std::optional<double> geometric_rest(std::span<const double> v, std::size_t leng
 
 constexpr std::size_t shortest_step = 4;  // intervals
 constexpr double same_limit = 0.1;        // of what lacks
+constexpr double apart = 3;               // what limits by other parts differ by, as an uncertainty
 
 // The limit by the last four steps of so many intervals.
 SpeedLimit limit_by(std::span<const double> angles, std::size_t step, double noise) {
@@ -68,7 +69,7 @@ SpeedLimit limit_of_speed(std::span<const double> angles, double noise) {
     if (agree(by[k], by[k + 1]) && (k + 2 == by.size() || agree(by[k], by[k + 2]))) {
       SpeedLimit& found = by[k];
       for (std::size_t other = k + 1; other < by.size() && other <= k + 2; ++other)
-        found.unsure = std::max(found.unsure, std::abs(found.limit - by[other].limit));
+        found.unsure = std::max(found.unsure, apart * std::abs(found.limit - by[other].limit));
       return found;
     }
   SpeedLimit none;
