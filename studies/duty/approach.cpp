@@ -59,19 +59,31 @@ bool agree(const SpeedLimit& a, const SpeedLimit& b) {
              same_limit * std::max(std::abs(a.limit - a.speed), std::abs(b.limit - b.speed)) + a.unsure + b.unsure;
 }
 
+// A change that is within the noise only as the part is short: over twice the time it was twice as large. A speed that has
+// settled changes far less.
+bool goes_on(const SpeedLimit& longer, const SpeedLimit& part, double noise) {
+  constexpr double of_half_the_time = 0.25;
+  return std::abs(part.change) <= noise && part.change * longer.change > 0 &&
+         std::abs(part.change) > of_half_the_time * std::abs(longer.change);
+}
+
 }  // namespace
 
 SpeedLimit limit_of_speed(std::span<const double> angles, double noise) {
   std::vector<SpeedLimit> by;  // the longest part first
   for (std::size_t step = angles.empty() ? 0 : (angles.size() - 1) / 4; step >= shortest_step; step /= 2)
     by.push_back(limit_by(angles, step, noise));
-  for (std::size_t k = 0; k + 1 < by.size(); ++k)
+  bool all_grow = true;  // the longer ones
+  for (std::size_t k = 0; k + 1 < by.size(); ++k) {
+    all_grow = all_grow && (k == 0 || by[k - 1].kind == SpeedLimit::Kind::grows);
+    if (k > 0 && all_grow && goes_on(by[k - 1], by[k], noise)) break;
     if (agree(by[k], by[k + 1]) && (k + 2 == by.size() || agree(by[k], by[k + 2]))) {
       SpeedLimit& found = by[k];
       for (std::size_t other = k + 1; other < by.size() && other <= k + 2; ++other)
         found.unsure = std::max(found.unsure, apart * std::abs(found.limit - by[other].limit));
       return found;
     }
+  }
   SpeedLimit none;
   if (by.empty()) return none;
   none.change = by.back().change;

@@ -221,7 +221,8 @@ void judge_by_angles(const LinkHistory& link, double tolerance, DrivenTime& d, P
   const SpeedLimit found =
       limit_of_speed(d.angles, std::min(noise_of_tolerance * tolerance, most_noise) * scale * interval);
   const double lacks = std::abs(found.limit - found.speed) / interval, unsure = found.unsure / interval;
-  const double change = (d.means.back() - d.means[d.means.size() - 2]) / scale;
+  const double before = d.means[d.means.size() - 2],
+               change = (d.means.back() - before) / std::max(scale, std::abs(before));
   const bool known = found.kind == SpeedLimit::Kind::known;
   periods.steady = known && lacks + unsure <= steady_within * scale;
   periods.without_limit = found.kind == SpeedLimit::Kind::grows;

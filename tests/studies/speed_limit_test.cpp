@@ -133,6 +133,22 @@ TEST(SpeedLimit, OfAnInductionMotorThatHasRunUp) {
   }
 }
 
+// A constant torque on a large inertia, and a slow approach: within the noise in short parts, but not in longer ones.
+TEST(SpeedLimit, OfASlowDriftIsNone) {
+  for (const double accuracy : {1e-2, 1e-3, 1e-4, 1e-6})
+    for (const char* damping : {"0", "1"}) {
+      const Result r = run(fmt::format(R"(
+        line = ["wheel"]
+        wheel = {{ kind = "flywheel", inertia = "1000 kg*m2" }}
+        source = {{ kind = "torque source", on = "wheel", torque = "50 N*m" }}
+        drag = {{ kind = "bearing drag", on = "wheel", damping = "{} N*m*s/rad" }}
+        run = {{ start = {{ speed = "100 rad/s" }}, until = "0.5 s", accuracy = {} }}
+      )",
+                                       damping, accuracy));
+      EXPECT_FALSE(r.periods.steady) << accuracy << " " << damping << ": " << r.periods.verdict;
+    }
+}
+
 // The percentage is that of the speed at the end, and the limit is that of `steady`.
 TEST(SpeedLimit, OfAStraightCharacteristicIsStatedFromTheSpeedAtTheEnd) {
   const Result r = run(R"(
