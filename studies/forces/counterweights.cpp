@@ -19,19 +19,23 @@ Force2 added(double moment, const PositionForces& p) {
   return -moment * w * w * direction_of(p.forces.state.phi);
 }
 
+// Half orders are of four-stroke engines; of longer cycles there would be many.
+int parts_of_order(int turns) { return turns == 2 ? 2 : 1; }
+
 }  // namespace
 
 // a_k = 2/n Σ f cos kφ over whole turns; both ends are given, so the last one is omitted.
 std::vector<ForceHarmonic> harmonics(const std::vector<double>& values, int turns, double* mean) {
   const std::size_t n = values.size() - 1;
   std::vector<ForceHarmonic> orders;
-  for (int k = 0; k <= highest_order * turns; ++k) {
+  const int parts = parts_of_order(turns);
+  for (int k = 0; k <= highest_order * parts; ++k) {
     std::complex<double> sum = 0;
     for (std::size_t i = 0; i < n; ++i)
-      sum += values[i] * std::polar(1.0, -k * turn * static_cast<double>(i) / static_cast<double>(n));
+      sum += values[i] * std::polar(1.0, -k * turn * (turns / parts) * static_cast<double>(i) / static_cast<double>(n));
     sum /= static_cast<double>(n);
     if (k == 0 && mean) *mean = sum.real();
-    if (k > 0) orders.push_back({static_cast<double>(k) / turns, {2 * std::abs(sum)}, -std::arg(sum)});
+    if (k > 0) orders.push_back({static_cast<double>(k) / parts, {2 * std::abs(sum)}, -std::arg(sum)});
   }
   return orders;
 }
@@ -83,7 +87,7 @@ std::optional<Balancing> balancing_of(const MechanismData& data, const ForceCycl
         phi, values, [&](double x) { return value(at(x)); }, largest);
   };
   const int turns = static_cast<int>(std::lround(turn_of_crank.cycle / turn));
-  const auto first = static_cast<std::size_t>(turns - 1);  // order 1
+  const auto first = static_cast<std::size_t>(parts_of_order(turns) - 1);  // order 1
   const auto propose = [&](const std::string& name, double moment) {
     Counterweight c;
     c.name = name;

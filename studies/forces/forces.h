@@ -74,7 +74,7 @@ struct PositionForces {
 
 // Order k per crank turn: amplitude and phase of A cos(k φ − phase).
 struct ForceHarmonic {
-  double order = 0;  // of a cycle of n turns also k/n
+  double order = 0;  // of a cycle of two turns also half ones
   Estimate amplitude;
   double phase = 0;
 };
@@ -210,8 +210,8 @@ struct Forces : SceneStudy {
 // std::runtime_error with the position if the joints jam.
 Forces find_forces(const Scene& scene, const ForcesOptions& options);
 
-// Orders up to the highest, in steps of 1/turns, of equidistant values over `turns` turns, both ends (trapezoidal rule, exact for
-// smooth functions).
+// Orders up to the highest, of two turns half orders, too, of equidistant values over `turns` turns, both ends (trapezoidal rule,
+// exact for smooth functions).
 std::vector<ForceHarmonic> harmonics(const std::vector<double>& values, int turns, double* mean = nullptr);
 // The same with errors: difference to half of the values, and rounding of `scale`. The number of cells must be even.
 std::vector<ForceHarmonic> measured_harmonics(const std::vector<double>& values, int turns, double scale);

@@ -329,6 +329,7 @@ TEST(ShakingForce, OfTwoTurnsHasHalfOrders) {
     EXPECT_NEAR(h.amplitude.value, h.order == 1.5 ? 3 : h.order == 1 ? 1 : 0, 1e-12) << h.order;
   EXPECT_NEAR(orders[2].phase, 0.4, 1e-12);
   EXPECT_EQ(orders.front().order, 0.5);
+  EXPECT_EQ(harmonics(values, 3).size(), std::size_t{highest_order});
 }
 
 }  // namespace
