@@ -20,7 +20,8 @@ bool comes_again(const Result& r, const Figure& peak) {
   const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   if (r.cycles.back().end - r.cycles.back().begin < least_samples_of_a_cycle * step) return true;
   const std::optional<double> later = largest_sample_from(r, peak, 0.5 * (time.front() + time.back()));
-  return !later || *later >= again * std::abs(peak.value);
+  const std::optional<double> ever = largest_sample_from(r, peak, time.front());
+  return !later || *later >= again * *ever;
 }
 
 }  // namespace
