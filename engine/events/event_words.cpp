@@ -132,8 +132,9 @@ std::string words_of(const Contact& contact, const std::string& holders, const H
   constexpr double rounding = 1e-8;  // of what is held, or usual: nothing acts
   const double least = rounding * std::max({std::abs(holding.backwards), holding.forwards, contact.torque_scale});
   const double acts = std::abs(holding.acts) <= least ? 0 : holding.acts;
+  constexpr double near = 0.9;  // what already acts counts towards it
   const auto side = [&](double limit, double missing, const char* way) {
-    return std::max(std::abs(limit), missing) > holding.unbounded ? fmt::format("{}: it is self-locking", way)
+    return std::max(std::abs(limit), missing) > near * holding.unbounded ? fmt::format("{}: it is self-locking", way)
            : missing <= least
                ? fmt::format("{}: any torque would move it", way)
                : fmt::format("{}: up to {} N·m are held, {} N·m more would move it{}", way,
