@@ -77,24 +77,26 @@ double Holders::command_of(const std::string& component) const {
   return c < 0 ? 1 : equations_.modes().command[at(c)].at(end_, m_.scene.sequence);
 }
 
-const std::string* Holders::brake(bool put_on) const {
+std::vector<const Network::ShaftElement*> Holders::brakes_on() const {
+  std::vector<const Network::ShaftElement*> list;
   for (std::size_t e = 0; e < m_.network.elements.size(); ++e) {
     const Network::ShaftElement& element = m_.network.elements[e];
-    if (m_.network.kind_of(element.component) != "brake" || !equations_.modes().active[e]) continue;
-    if (put_on && !(element.window.first_on() > 0)) continue;
-    if (stands(element.node) && command_of(element.component) > 0) return &element.component;
+    if (m_.network.kind_of(element.component) == "brake" && equations_.modes().active[e] != 0 &&
+        joined_[at(m_.shaft_of_node[at(element.node)])] != 0 && command_of(element.component) > 0)
+      list.push_back(&element);
   }
+  return list;
+}
+
+const std::string* Holders::brake(bool put_on) const {
+  for (const Network::ShaftElement* element : brakes_on())
+    if (stands(element->node) && (!put_on || element->window.first_on() > 0)) return &element->component;
   return nullptr;
 }
 
 const std::string* Holders::slipping_brake() const {
-  for (std::size_t e = 0; e < m_.network.elements.size(); ++e) {
-    const Network::ShaftElement& element = m_.network.elements[e];
-    const std::size_t shaft = at(m_.shaft_of_node[at(element.node)]);
-    if (m_.network.kind_of(element.component) == "brake" && equations_.modes().active[e] != 0 && joined_[shaft] != 0 &&
-        !equations_.at_standstill(shaft) && command_of(element.component) > 0)
-      return &element.component;
-  }
+  for (const Network::ShaftElement* element : brakes_on())
+    if (!stands(element->node)) return &element->component;
   return nullptr;
 }
 
@@ -106,11 +108,15 @@ std::vector<std::size_t> Holders::gears() const {
 }
 
 std::string Holders::components() const {
-  if (const std::string* applied = brake()) return fmt::format("\"{}\"", *applied);
   std::set<std::string> names;
-  for (const Network::ShaftElement& e : m_.network.elements)
-    if (e.element->is.directional && stands(e.node)) names.insert(e.component);
-  for (const std::size_t gear : gears()) names.insert(m_.network.relations[at(m_.relations[gear].relation)].component);
+  for (const Network::ShaftElement* element : brakes_on())
+    if (stands(element->node)) names.insert(element->component);
+  if (names.empty()) {
+    for (const Network::ShaftElement& e : m_.network.elements)
+      if (e.element->is.directional && stands(e.node)) names.insert(e.component);
+    for (const std::size_t gear : gears())
+      names.insert(m_.network.relations[at(m_.relations[gear].relation)].component);
+  }
   std::string text;
   for (const std::string& name : names) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name);
   return text;
@@ -125,13 +131,14 @@ std::string Holders::beside(const char* load) const {
 }
 
 double Holders::torque() const {
-  const std::string* const applied = brake();
-  const std::size_t braked = applied ? at(m_.shaft_of_node[at(m_.network.ports.at(*applied).in)]) : 0;
+  std::set<std::size_t> braked;  // shafts
+  for (const Network::ShaftElement* element : brakes_on())
+    if (stands(element->node)) braked.insert(at(m_.shaft_of_node[at(element->node)]));
   double sum = 0;
   for (std::size_t c = 0; c < torque_.size(); ++c) {
     const Contact& contact = equations_.ties().contacts()[c];
     if (contact.kind == Contact::Kind::connection || sense_of(contact, equations_.modes()) != 0) continue;
-    if (applied && (contact.kind != Contact::Kind::frame || at(contact.index) != braked)) continue;
+    if (!braked.empty() && (contact.kind != Contact::Kind::frame || !braked.contains(at(contact.index)))) continue;
     double motion = 0;  // of the contact, by that of the link
     for (const ShaftGain& part : contact.motion)
       if (const std::size_t reference = at(m_.shafts[at(part.shaft)].reference); joined_[at(part.shaft)] != 0)

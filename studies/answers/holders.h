@@ -30,7 +30,7 @@ class Holders {
   const std::string* slipping_brake() const;
   // Relations whose losses hold what they join.
   std::vector<std::size_t> gears() const;
-  // "gear", "bearing": the brake, else components that oppose motion on standing shafts and gears locked by their losses.
+  // "gear", "bearing": the brakes, else components that oppose motion on standing shafts and gears locked by their losses.
   std::string components() const;
   // `load`, if one is among those that hold, or nothing is known; else their names.
   std::string beside(const char* load) const;
@@ -42,6 +42,7 @@ class Holders {
  private:
   double command_of(const std::string& component) const;  // in force at the end; 1 if there is none
   bool stands(int node) const;
+  std::vector<const Network::ShaftElement*> brakes_on() const;  // applied, whether their shafts stand or turn
 
   const Equations& equations_;
   const Model& m_;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -245,6 +246,25 @@ TEST(RunawayOfASeriesMotor, IsSaidInTheUnitOfTheScene) {
   )",
                              false);
   EXPECT_TRUE(has(r.diagnosis, "its speed passed max_speed = 450 rad/s (by default 5 rated_speed)")) << r.diagnosis;
+}
+
+// Two brakes on shafts that a gear i = 10 joins share in proportion to their holds, 20 and 200/10 N·m on the motor: both hold the
+// 100/10 N·m that act there.
+TEST(Brakes, ThatHoldTogetherAreBothNamedWithWhatTheyHold) {
+  const Result r = test::run(R"(
+    line = ["motor", "gearbox", "drum"]
+    motor = { kind = "inertia", inertia = "0.05 kg*m2" }
+    b1 = { kind = "brake", on = "motor", torque = "14 N*m", static_torque = "20 N*m" }
+    gearbox = { kind = "gearbox", stages = [{ teeth = [20, 200] }] }
+    drum = { kind = "inertia", inertia = "3 kg*m2" }
+    b2 = { kind = "brake", on = "drum", torque = "150 N*m", static_torque = "200 N*m" }
+    w = { kind = "torque source", on = "drum", torque = "-100 N*m" }
+    run = { start = { speed = "10 rad/s" }, until = "10 s" }
+  )");
+  const auto held =
+      std::find_if(r.claims.begin(), r.claims.end(), [](const Claim& c) { return c.predicate == Predicate::held_by; });
+  ASSERT_NE(held, r.claims.end());
+  EXPECT_EQ(held->text, "\"motor\" is held by \"b1\", \"b2\" against the 10 N·m that act on it");
 }
 
 }  // namespace
